@@ -11,7 +11,7 @@ namespace tetmend::face {
 namespace {
 
 constexpr std::array<Purpose, 5> kPurposes = {{
-    {"", "the solver that follows, whichever", "15%", true, 3, 3},
+    {"", "the solver that follows, whichever", "15%", true, 3, 2},
     {"explicit", "explicit time integration: tets over step", "0%", true, 3, 6},
     {"implicit", "iterative solvers: tets times steps", "5%", true, 3, 6},
     {"volumes", "finite volumes: faces at right angles to what they part", "15%", true, 3, 6},

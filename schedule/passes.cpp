@@ -14,8 +14,7 @@ namespace {
 /// For each selected tet on average, in a sweep that inserts.
 constexpr double kNewVerticesPerTet = 0.5;
 
-/// More tets around an edge become so many more that their mean hardly rises.
-constexpr double kMostAroundEdge = 5;
+constexpr double kMostAroundEdge = 5;  // more become so many that their mean hardly rises
 
 /// Passes that may succeed where another failed have a calendar of their own. How many tets one takes
 /// is nothing that makes it succeed.

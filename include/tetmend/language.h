@@ -1,6 +1,6 @@
-/* SPDX-License-Identifier: MIT */
-/* Says what is missing, in place of pages of messages, where the headers for C++ are compiled for an
- * older standard. The headers for C, <tetmend/tetmend.h>, need none. */
+// SPDX-License-Identifier: MIT
+// Says what is missing, in place of pages of messages, where the headers for C++ are compiled for an
+// older standard. The header for C, <tetmend/tetmend.h>, needs none.
 #pragma once
 
 #if defined(_MSVC_LANG)

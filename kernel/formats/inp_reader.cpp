@@ -126,11 +126,12 @@ class Reader {
     for (const InpBlock& block : lines_.blocks) {
       if (is_use(block)) forget_names(block, elsewhere);
     }
+    std::set<std::string> told;
     for (InpSet& set : sets_.all) {
       if (!faces_.sets.contains(&set) || of_elements.contains(&set)) continue;
       if (elsewhere.contains(set.key)) continue;
       set.is_kept = false;
-      if (set.is_internal) continue;
+      if (set.is_internal || !told.insert(set.key).second) continue;  // once for all instances
       data_.notes.push_back(fmt::format(
           "the set of elements {} is not kept: it serves faces alone, which are written by numbers",
           in_quotes(set.name)));

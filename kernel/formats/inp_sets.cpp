@@ -109,18 +109,18 @@ void InpSets::add_work(std::size_t members, const InpBlock& block) {
 
 InpSet& InpSets::named(bool of_nodes, const InpBlock& block, std::string_view name) {
   const std::size_t owner = block.is_in_assembly ? kAssembly : block.scope;
-  std::vector<InpSet*>& known = by_key_[{of_nodes, owner, inp_key(name)}];
-  for (InpSet* set : known) {
-    if (set->instance == block.instance) return *set;
-  }
+  const Key key = {of_nodes, owner, inp_key(name)};
+  InpSet*& known = by_instance_[{key, block.instance}];
+  if (known != nullptr) return *known;
   InpSet& set = all.emplace_back();
-  set.key = inp_key(name);
+  known = &set;
+  set.key = std::get<std::string>(key);
   const bool quoted = name.size() > 1 && name.front() == '"' && name.back() == '"';
   set.name = quoted ? name.substr(1, name.size() - 2) : name;
   set.of_nodes = of_nodes;
   set.scope = block.scope;
   set.instance = block.instance;
-  known.push_back(&set);
+  by_key_[key].push_back(&set);
   return set;
 }
 

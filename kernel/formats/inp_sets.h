@@ -78,6 +78,7 @@ class InpSets {
   const InpLines& lines_;
   const InpMesh& mesh_;
   std::map<Key, std::vector<InpSet*>> by_key_;
+  std::map<std::pair<Key, std::size_t>, InpSet*> by_instance_;
   std::size_t work_ = 0;  // members that no number of a line names
 };
 

@@ -166,7 +166,7 @@ TEST_CASE("wrong usage gives one line on stderr and status 2") {
     check_complaint(run_program(arguments), 2);
   }
   CHECK(folder.entries() == 0);
-  CHECK(contains(run_program({"polish"}).err, "improve, quality, check, convert"));
+  CHECK(contains(run_program({"polish"}).err, "improve, adapt, quality, check, convert"));
   CHECK(contains(run_program({"improve", mesh, "-o", out, "--polish"}).err, "--polish"));
   CHECK(contains(run_program(wrong[12]).err, "shell"));
 }

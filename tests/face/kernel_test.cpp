@@ -163,7 +163,8 @@ TEST_CASE("after edits, garbage collection and sorting the data of a mesh are wh
   MeshData data = contract::delaunay_ball(200, 1);
   std::vector<double> places, numbers;
   for (const Point& p : data.points) places.push_back(2 * p.x() + p.y());
-  for (std::size_t t = 0; t < data.tets.size(); ++t) numbers.push_back(static_cast<double>(t));
+  for (std::size_t t = 0; t < data.tets.size(); ++t)
+    numbers.push_back(static_cast<double>(t) + 0.5);  // no identifiers
   data.point_data = {{"place", 1, places}};
   data.tet_data = {{"number", 1, numbers}};
   const auto old_tets = data.tets;
@@ -191,7 +192,7 @@ TEST_CASE("after edits, garbage collection and sorting the data of a mesh are wh
     for (const std::uint32_t v : old_tets[t].vertices) {
       corners.insert({old_points[v].x(), old_points[v].y(), old_points[v].z()});
     }
-    known[corners] = static_cast<double>(t);
+    known[corners] = static_cast<double>(t) + 0.5;
   }
   for (std::size_t t = 0; t < after.tet_count(); ++t) {
     std::set<std::array<double, 3>> corners;

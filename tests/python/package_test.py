@@ -569,9 +569,9 @@ def test_a_trace_tells_what_the_command_line_tells(tmp_path, materials, command_
         tetmend.Trace(MATERIALS)
 
 
-def test_a_trace_has_a_ledger_in_which_each_call_is_once(tmp_path, materials, command_line):
+def test_a_trace_has_a_ledger_in_which_each_call_is_once(tmp_path, command_line):
     file = tmp_path / "run.trace"
-    tetmend.improve(materials, trace=file, set={"max_rounds": 1})
+    tetmend.improve(tetmend.load(MATERIALS.with_name("folded_sheet.mesh")), trace=file)
     trace = tetmend.Trace(file)
     ledger = trace.ledger()
     assert sum(entry["calls"] for entry in ledger) == trace.call_count

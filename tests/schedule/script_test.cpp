@@ -227,7 +227,7 @@ TEST_CASE(
       {"parameter{'x', default = 9, high = 3}", "parameter x: the default 9 is outside"},
       {"parameter{'a b', default = 1}", "'a b' is no name"},
       {"parameter{'x', default = 1} parameter{'x', default = 2}", "'x' exists already"},
-      {"smoth{}", "unknown name 'smoth'; valid: all_of, apply"},
+      {"smoth{}", "unknown name 'smoth'; valid: adapt, all_of, apply"},
       {"io.open('/etc/passwd')", "unknown name 'io'"},
   };
   for (const auto& entry : cases) {

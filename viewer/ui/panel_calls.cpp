@@ -50,8 +50,8 @@ bool is_lit(const Pointed& pointed, std::uint32_t number, const Call& call) {
 /// The marks, in rows of three.
 void explain_marks() {
   constexpr std::array<std::pair<Outcome, const char*>, kOutcomeCount> kMeanings = {
-      {{Outcome::accepted, "accepted for good"},
-       {Outcome::undone, "undone with a caller"},
+      {{Outcome::accepted, "for good"},
+       {Outcome::undone, "undone later"},
        {Outcome::rejected, "tried, undone"},
        {Outcome::no_improvement, "nothing better"},
        {Outcome::limit, "limit reached"},

@@ -185,6 +185,7 @@ py::dict to_dict(const Result& result) {
       "protected"_a =
           py::dict("tets"_a = result.protected_tets, "bad_tets"_a = result.protected_bad_tets),
       "layers"_a = py::dict("tets"_a = result.layer_tets, "bad_tets"_a = result.layer_bad_tets),
+      "curved_edges"_a = result.curved_edges, "straightened_edges"_a = result.straightened_edges,
       "touched_tets"_a = result.touched_tets, "limit"_a = to_object(result.limit),
       "worse_than_before"_a = result.worse_than_before(), "missed_aims"_a = result.missed_aims(),
       "surface_fingerprint"_a = result.surface_fingerprint,

@@ -138,7 +138,7 @@ class Result:
     def report(self) -> dict[str, Any]:
         """All figures as JSON can express them, under the names of the command line's `--report`."""
         wanted = {"schedule", "settings", "measure", "threads", "size_drift", "notes", "data", "build", "protected", "layers",
-                  "limit", "not_positive_tets", "volume_change", "seconds", "passes", "worse_than_before", "missed_aims"}
+                  "limit", "curved_edges", "straightened_edges", "not_positive_tets", "volume_change", "seconds", "passes", "worse_than_before", "missed_aims"}
         fingerprints = [f"{self.figures[name]:016x}" for name in ("surface_fingerprint_before", "surface_fingerprint")]
         report = {name: value for name, value in self.figures.items() if name in wanted}
         return to_json({

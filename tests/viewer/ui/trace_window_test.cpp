@@ -29,15 +29,17 @@ TEST_CASE("breakpoints are set, switched off and taken away with the mouse") {
   if (!can_test_window()) return;
   const HandmadeTrace trace;
   Viewer viewer(trace.path(), "1300x850");
+  type("mousemove 650 300 key Right");  // into a call: outside of all the ledger is on top
+  wait_until_still();
   for (const char* place : {"refused", "deeper 0", "accepted"}) {
-    click(200, 296);  // the place to run to
+    click(200, 317);  // the place to run to
     type("key ctrl+a");
     type(fmt::format("type --delay 80 '{}'", place));
-    click(213, 323);  // breakpoint
+    click(254, 344);  // breakpoint
   }
   // Now there is a row for each, 27 pixels high.
-  click(18, 350);   // "refused" is off
-  click(428, 404);  // "accepted" is gone
+  click(18, 371);   // "refused" is off
+  click(428, 425);  // "accepted" is gone
   click(1071, 70);  // run
   const auto state = viewer.quit();
   CHECK(state["trace"]["breakpoints"] == nlohmann::json{"refused", "deeper 0"});
@@ -48,17 +50,19 @@ TEST_CASE("the mouse runs to a place and back, and enters a call in tree and bre
   if (!can_test_window()) return;
   const HandmadeTrace trace;
   Viewer viewer(trace.path(), "1300x850");
-  click(200, 296);
+  type("mousemove 650 300 key Right");
+  wait_until_still();
+  click(200, 317);
   type("key ctrl+a");
   type("type --delay 80 'edge 0 2'");
-  click(50, 323);  // run to next: 7
+  click(88, 344);  // run to next: 7
   type("mousemove 650 300 key l");
   click(100, 109);  // the second row of the tree: the transformation, 4
   type("mousemove 650 300 key l");
   click(900, 153);  // the first crumb: the recursion around it, 3
   type("mousemove 650 300 key l");
   click(1025, 70);  // out: 9
-  click(133, 323);  // before: back to 7
+  click(172, 344);  // before: back to 7
   const auto state = viewer.quit();
   CHECK(state["trace"]["bookmarks"] == nlohmann::json{3, 4, 7});
   CHECK(state["trace"]["position"] == 7);
@@ -95,9 +99,9 @@ TEST_CASE("what the mouse is on is pointed at: in tree, icicles, breadcrumb, rin
     std::vector<std::uint32_t> vertices;
   };
   const std::vector<Place> places = {{200, 109, {0, 1}},   // second row of the tree
-                                     {545, 731, {0, 1}},   // the same call in the icicles
+                                     {550, 748, {0, 1}},   // the same call in the icicles
                                      {1060, 302, {1, 5}},  // the second crumb
-                                     {134, 461, {0}},      // the name of a corner of the ring
+                                     {134, 484, {0}},      // the name of a corner of the ring
                                      {627, 369, {0}},      // the vertex in the picture
                                      {700, 150, {}}};      // nothing
   for (const Place& place : places) {
@@ -131,15 +135,15 @@ TEST_CASE("a right click goes to what the mouse is on, or asks for its history")
   SUBCASE("to the call of a bar of the icicles") {
     Viewer viewer(kLesson, "1300x850");
     go_to_second_shell();
-    type("mousemove 545 731 click 3");
-    click(570, 747);  // Go to call 1
+    type("mousemove 550 748 click 3");
+    click(575, 764);  // Go to call 1
     CHECK(viewer.quit()["trace"]["position"] == 4);
   }
   SUBCASE("to the edge that it aimed at") {
     Viewer viewer(kLesson, "1300x850");
     go_to_second_shell();
-    type("mousemove 545 731 click 3");
-    click(570, 788);  // Go to this edge
+    type("mousemove 550 748 click 3");
+    click(575, 805);  // Go to this edge
     const auto state = viewer.quit();
     CHECK(state["trace"]["position"] == 8);
     CHECK(state["selection"]["kind"] == "edge");
@@ -148,16 +152,16 @@ TEST_CASE("a right click goes to what the mouse is on, or asks for its history")
   SUBCASE("the history of a vertex of the ring") {
     Viewer viewer(kLesson, "1300x850");
     go_to_second_shell();
-    type("mousemove 134 461 click 3");
-    click(160, 518);  // History of this vertex
+    type("mousemove 134 484 click 3");
+    click(160, 541);  // History of this vertex
     CHECK(viewer.quit()["message"] == "the history of vertex:0 is in the panel History");
   }
   SUBCASE("Escape closes the menu, and nothing else") {
     Viewer viewer(kLesson, "1300x850");
     go_to_second_shell();
-    type("mousemove 545 731 click 3");
+    type("mousemove 550 748 click 3");
     type("key Escape");
-    click(570, 788);
+    click(575, 805);
     const auto state = viewer.quit();
     CHECK(state["selection"]["kind"] == "edge");  // that of the call at hand, as before
     CHECK(state["selection"]["from"].get<int>() + state["selection"]["to"].get<int>() == 6);
