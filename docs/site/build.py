@@ -26,7 +26,7 @@ NAVIGATION: dict[str, list[str]] = {
     "index": ["start", "install", "howto", "choosing", "report", "troubleshooting", "extending",
               "overview", "reliability", "results", "reference"],
     "howto": ["howto/gmsh", "howto/paraview", "howto/fenicsx", "howto/calculix", "howto/su2", "howto/openfoam",
-              "howto/others", "python", "library", "kernel", "c", "howto/ci", "layers", "surface", "pieces", "viewer", "examples"],
+              "howto/others", "python", "library", "kernel", "c", "howto/ci", "layers", "surface", "sizes", "pieces", "viewer", "examples"],
     "extending": ["operators", "schedules", "trace", "contributing", "portability"],
     "overview": ["glossary", "deviations"],
     "results": ["experiments", "results/rivals", "results/schedules", "results/ablation", "results/promises",
@@ -42,7 +42,7 @@ OUTSIDE = {"CONTRIBUTING.md": "contributing.md", "CHANGELOG.md": "changes.md", "
 # Pages that are not in docs/: what they say is said by the program, the headers and the bindings.
 GENERATED = {"docs/command-line.md", "docs/cpp.md", "docs/python-reference.md", "docs/c-reference.md",
              "docs/fortran-reference.md"}
-COMMANDS = ["improve", "pieces", "quality", "check", "convert", "surface", "operators", "schedules", "trace", "lesson",
+COMMANDS = ["improve", "adapt", "pieces", "quality", "check", "convert", "surface", "operators", "schedules", "trace", "lesson",
             "check-plugin"]
 
 

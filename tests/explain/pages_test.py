@@ -181,7 +181,7 @@ class Pages(unittest.TestCase):
             self.assertEqual(fact["cut"], [], where)
             self.assertEqual(fact["hash"], f"#step={fact['position']}", where)
             if fact["shown"]:
-                self.assertGreater(fact["painted"], 0.01, where)
+                self.assertGreater(fact["painted"], 0.005, where)
             for cell in fact.get("cells", []):
                 self.assertEqual(cell["cut"], [], f"{where}, {cell['text']}")
                 self.assertRegex(cell["text"], r"^Cell \d+ of \d+, pocket from \d+ to \d+: ")
@@ -242,7 +242,7 @@ class Pages(unittest.TestCase):
     # What a page does at its step 5, and what the walk is to say of it.
     BROKEN = {
         "an error": ("const whole = showCode; showCode = (step) => { whole(step); if (place.step === 5) setTimeout(() => { throw new Error('broken step'); }); };", "broken step"),
-        "an empty picture": ("const whole = drawPicture; drawPicture = () => { whole(); if (place.step === 5) { painter.gl.clearColor(0, 0, 0, 0); painter.gl.clear(painter.gl.COLOR_BUFFER_BIT); } };", "not greater than 0.01"),
+        "an empty picture": ("const whole = drawPicture; drawPicture = () => { whole(); if (place.step === 5) { painter.gl.clearColor(0, 0, 0, 0); painter.gl.clear(painter.gl.COLOR_BUFFER_BIT); } };", "not greater than 0.005"),
         "a text that is cut off": ("const whole = showCode; showCode = (step) => { whole(step); const reason = byId('event'); Object.assign(reason.style, place.step === 5 ? {width: '3em', whiteSpace: 'nowrap', overflow: 'hidden', display: 'block'} : {width: '', whiteSpace: '', overflow: '', display: ''}); };", "Lists differ"),
         "a cell that does not say what it is": ("const whole = showTables; showTables = (...all) => { whole(...all); if (place.step === 4 && place.cell === 3) byId('cell-text').textContent = ''; };", "Regex didn't match"),
         "a step that is passed over": ("const whole = goTo; goTo = (n, ...more) => whole(n === 5 ? 6 : n, ...more);", "Lists differ"),

@@ -69,7 +69,7 @@ TEST_CASE("a ring has the numbers of the study of its call, and none on each oth
   Bench bench;
   unsigned rings = 0;
   unsigned made = 0;
-  for (std::uint32_t k = 0; k < bench.file.calls().size() && rings < 40; ++k) {
+  for (std::uint32_t k = 0; k < bench.file.calls().size() && rings < 60; ++k) {
     const CallStudy study = study_call(bench.file, bench.replay, k);
     if (!study.picture || study.picture->ring.size() < 3) continue;
     ++rings;
@@ -88,7 +88,7 @@ TEST_CASE("a ring has the numbers of the study of its call, and none on each oth
       CHECK(has_text(drawing, fmt::format("{:.3f}", t.quality)));
     }
   }
-  CHECK(rings == 40);
+  CHECK(rings == 60);
   CHECK(made > 5);
 }
 
