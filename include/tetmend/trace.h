@@ -159,7 +159,7 @@ class TETMEND_API Trace {
   // What `tetmend trace` prints.
 
   std::string summary() const;  ///< in numbers
-  /// Two runs side by side, as --against: this one is a. Cost: that of worse_than(), and histories.
+  /// Two runs side by side, as `--against`: this one is a. Cost: that of worse_than(), and histories.
   std::string against(const Trace& other) const;
   /// Why a tet, face, edge or vertex is there or gone: "tet:worst", "tet:3,5,8,9", "edge:3,5", in
   /// the numbers of the trace. @throws Error when it is written in another way or was never there.
