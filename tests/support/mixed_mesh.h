@@ -21,7 +21,9 @@ enum class Bed { wedges = 13, pyramids = 14, hexahedra = 12, quads = 9 };
 inline MeshData tets_on(Bed bed, std::uint32_t side, std::uint32_t seed) {
   MeshData data;
   std::mt19937 random(seed);
-  const auto shift = [&random] { return (static_cast<double>(random() % 1000) / 999.0 - 0.5) * 0.66; };
+  const auto shift = [&random] {
+    return (static_cast<double>(random() % 1000) / 999.0 - 0.5) * 0.66;
+  };
   const std::uint32_t row = side + 1;
   for (std::uint32_t k = 0; k < side + 2; ++k) {
     for (std::uint32_t j = 0; j < row; ++j) {
