@@ -109,6 +109,7 @@ TEST_CASE("what the mouse is on is pointed at: in tree, icicles, breadcrumb, rin
     CAPTURE(place.y);
     Viewer viewer(kLesson, "1300x850");
     go_to_second_shell();
+    wait_until_still();  // panels have moved
     type(fmt::format("mousemove {} {}", place.x, place.y));
     wait_until_still();  // with the mouse there
     const auto state = viewer.quit();
