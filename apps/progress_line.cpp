@@ -31,12 +31,12 @@ void ProgressLine::show(std::string_view phase) {
 }
 
 void ProgressLine::show(const Progress& progress) {
-  constexpr auto kInterval = std::chrono::milliseconds(100);
+  constexpr auto kRedrawInterval = std::chrono::milliseconds(100);
   if (!active_) return;
   if (progress.stage == Stage::building) return show("building the mesh");
   if (progress.stage == Stage::measuring) return show("measuring");
   const Clock::time_point now = Clock::now();
-  if (progress.phase.empty() || now - last_drawn_ < kInterval) return;
+  if (progress.phase.empty() || now - last_drawn_ < kRedrawInterval) return;
   last_drawn_ = now;
   draw(fmt::format("round {:2}  {:<22} {:3.0f} %  bad {:>7}  worst {:7.4f}  {:.1f} s",
                    progress.round, progress.phase, 100 * progress.share, progress.now.n_bad,
