@@ -141,7 +141,7 @@ WORDS = {
                 "smoothing edge_split edge_contraction table.sort table.concat string.format string.rep pairs ipairs "
                 "math.huge while do end for function return local if then error tostring select",
     "options": "protect only tets conserve measure schedule min max keep_size ignore_interior threads trace_around "
-               "trace_operator trace_depth trace_limit trace_piece set label: box: shell thorough stellar grummp polish "
+               "trace_operator trace_depth trace_limit trace_piece set label: box: shell thorough quick stellar grummp polish "
                "conservative table2 nan inf 1e308 -1 18446744073709551616",
     "lesson": "title mesh trace steps at text",
     "mesh": "MeshVersionFormatted Dimension Vertices Tetrahedra Triangles Edges RequiredVertices Corners Ridges End Prisms "

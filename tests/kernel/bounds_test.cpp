@@ -199,7 +199,7 @@ TEST_CASE("a tet of the quality that is called safe keeps the bounds") {
 
 TEST_CASE("no schedule leaves a tet beyond the bounds of its mesh") {
   for (const MeshData& data : {delaunay_ball(120, 3), kuhn_cube(4, 0.35, 2)}) {
-    for (const char* name : {"shell", "conservative", "stellar"}) {
+    for (const char* name : {"shell", "conservative", "stellar", "quick"}) {
       CAPTURE(name);
       TetMesh mesh(data);
       mesh.set_bounds(Bounds::of(mesh));
@@ -219,7 +219,7 @@ TEST_CASE("no schedule leaves a tet beyond the bounds of its mesh") {
 TEST_CASE("no schedule lowers the stable step below that of its mesh") {
   for (const MeshData& data :
        {delaunay_ball(120, 3), kuhn_cube(4, 0.35, 2), kuhn_cube(5, 0.2, 7)}) {
-    for (const char* name : {"shell", "conservative", "stellar", "polish"}) {
+    for (const char* name : {"shell", "conservative", "stellar", "polish", "quick"}) {
       CAPTURE(name);
       TetMesh mesh(data);
       mesh.set_bounds(Bounds::of(mesh, Bounds::Holding::solver));

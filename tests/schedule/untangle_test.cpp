@@ -224,7 +224,7 @@ TEST_CASE("a script reads what untangling did, and bounds where it is done") {
 }
 
 TEST_CASE("every schedule but that of a table of the paper mends a tangled mesh") {
-  for (const std::string name : {"shell", "conservative", "stellar", "grummp", "polish"}) {
+  for (const std::string name : {"shell", "conservative", "stellar", "grummp", "polish", "quick"}) {
     CAPTURE(name);
     TetMesh mesh(kuhn_cube(7, 1.8, 1));
     Run run(mesh, kRegistry);
