@@ -421,8 +421,8 @@ void Improvement::put_back(Made made) {
 }
 
 /// Some figure is worse than before: makes the run again, up to its best pass, or gives the input
-/// back. The same passes do the same, so no state needs to be kept in memory. Who stops that gets what
-/// it has reached, if no figure is worse there.
+/// back. The same passes do the same, so no state needs to be kept in memory. Who stops that gets
+/// what it has reached, if no figure is worse there.
 void Improvement::go_back() {
   goes_back_ = true;
   const std::string reason = fmt::format("{}", fmt::join(face::worse_for_nothing(result_), "; "));

@@ -17,8 +17,8 @@ namespace tetmend::formats {
 /// twice: their content is 0 wherever their vertices lie. And tets with the corners of an earlier
 /// one. A note names them. Other elements stay: a hexahedron may be collapsed to a prism.
 /// Precondition: the corners are points; those of second order are among the other elements.
-/// @param place_of  where in the file an element stands that goes, by its dimension and its number among
-/// tets, triangles or edges; empty: not known. Asked for the first of each note.
+/// @param place_of  where in the file an element stands that goes, by its dimension and its number
+/// among tets, triangles or edges; empty: not known. Asked for the first of each note.
 /// @return the numbers of the tets that went, ascending: of MeshData::tets or, where there are none, of
 /// those of second order
 /// Cost: linear; 12 bytes a tet meanwhile.

@@ -71,7 +71,8 @@ inline bool is_last_asked_for(const TetPlace* question, const MeshData& mesh, in
   }
 }
 
-/// Says where the element that was added last stands, if that is the question. `question` may be null.
+/// Says where the element that was added last stands, if that is the question. `question` may be
+/// null.
 inline void answer(TetPlace* question, const MeshData& mesh, const TextReader& text,
                    const ElementRow& row) {
   if (is_last_asked_for(question, mesh, row.kind->vtk_type)) {
