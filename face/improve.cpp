@@ -154,6 +154,9 @@ class Improvement {
   void put_back(Made made);
   void make_again(Mending mending, double seconds);
   void go_back();
+  bool is_stopped() const {
+    return watcher_.stopped() || (options_.cancel != nullptr && options_.cancel->load());
+  }
   std::size_t best_pass() const;
   void map_entities();
   void give_back();
@@ -319,7 +322,7 @@ void Improvement::run_schedule(std::size_t passes, double seconds) {
     result_.ending = run.out_of_time() ? Ending::time_limit
                      : run.cancelled() ? Ending::cancelled
                                        : Ending::finished;
-  } else if (run.cancelled() && run.records.size() < passes) {
+  } else if (is_stopped()) {  // by the user, not by the number of passes
     result_.ending = Ending::cancelled;
   }
   result_.passes.clear();
@@ -418,7 +421,8 @@ void Improvement::put_back(Made made) {
 }
 
 /// Some figure is worse than before: makes the run again, up to its best pass, or gives the input
-/// back. The same passes do the same, so no state needs to be kept in memory.
+/// back. The same passes do the same, so no state needs to be kept in memory. Who stops that gets
+/// what it has reached, if no figure is worse there.
 void Improvement::go_back() {
   goes_back_ = true;
   const std::string reason = fmt::format("{}", fmt::join(face::worse_for_nothing(result_), "; "));
@@ -434,10 +438,12 @@ void Improvement::go_back() {
       result_.passes.clear();
     }
     measure_after();
-    const bool is_whole = result_.passes.size() == passes;  // not cancelled on the way
-    if (passes > 0 && !(is_whole && face::worse_for_nothing(result_).empty())) continue;
-    const std::string text = fmt::format(
-        "went back to the state after pass {} of {}: at the end there was {}", passes, all, reason);
+    if (passes > 0 && !face::worse_for_nothing(result_).empty()) continue;
+    const std::size_t done = result_.passes.size();  // fewer where it was stopped on the way
+    std::string text = fmt::format(
+        "went back to the state after pass {} of {}: at the end there was {}", done, all, reason);
+    if (passes > 0 && is_stopped())
+      text += fmt::format("; it was stopped on the way to pass {}", passes);
     note({text});
     goes_back_ = false;
     return;

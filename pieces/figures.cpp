@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -118,14 +119,37 @@ Bounds bounds_of_own(const Piece& gathered, const Parting& parting, std::uint32_
 
 namespace {
 
+/// A tet of the piece that has the corners of another one; nothing: there is none.
+std::optional<std::size_t> find_again(const Piece& gathered, std::size_t tet) {
+  const auto corners = [&](std::size_t t) {
+    auto v = gathered.tets[t].vertices;
+    std::sort(v.begin(), v.end());
+    return v;
+  };
+  const auto wanted = corners(tet);
+  for (std::size_t t = 0; t < gathered.tets.size(); ++t) {
+    if (t != tet && corners(t) == wanted) return t;
+  }
+  return std::nullopt;
+}
+
 /// @throws Error with the number in the file of a tet that does not fit
 TetMesh build_first(const Piece& gathered, BuildReport& report) {
   MeshData data = to_data(gathered);
   try {
     return TetMesh::build(data, {.report = &report});
   } catch (const BuildError& error) {
-    const std::uint32_t number = gathered.tets[error.tet()].origin & ~PieceTet::kProtected;
+    const auto number_of = [&](std::size_t t) {
+      return gathered.tets[t].origin & ~PieceTet::kProtected;
+    };
+    const std::uint32_t number = number_of(error.tet());
     if (number == PieceTet::kNone) throw;
+    if (const auto other = find_again(gathered, error.tet())) {
+      const auto [first, again] = std::minmax(number, number_of(*other));
+      throw Error(fmt::format(
+          "tet {} of the file is tet {} again: a run in pieces drops none, 'tetmend convert' does",
+          std::uint64_t{again} + 1, std::uint64_t{first} + 1));
+    }
     throw Error(fmt::format("tet {} of the file: counted from 0 in its piece, {}",
                             std::uint64_t{number} + 1, error.what()));
   }

@@ -228,23 +228,24 @@ void append(DataArray& joined, const DataArray* array, std::size_t count) {
       joined.values);
 }
 
-/// Arrays of which the first of a name, a width and a type can be found.
+/// Arrays, to be found by name, width and type, and which it is of those that are alike in these.
 class ArrayIndex {
  public:
   explicit ArrayIndex(const std::vector<DataArray>& arrays) {
-    for (const DataArray& array : arrays) places_.try_emplace(key_of(array), &array);
+    for (const DataArray& array : arrays) alike_[key_of(array)].push_back(&array);
   }
-  const DataArray* find_like(const DataArray& model) const {
-    const auto found = places_.find(key_of(model));
-    return found == places_.end() ? nullptr : found->second;
-  }
-
- private:
   using Key = std::tuple<std::string_view, std::size_t, std::size_t>;
   static Key key_of(const DataArray& array) {
     return {array.name, array.components, array.values.index()};
   }
-  std::map<Key, const DataArray*> places_;
+  /// Null: there is none.
+  const DataArray* find_like(const DataArray& model, std::size_t which) const {
+    const auto found = alike_.find(key_of(model));
+    return found == alike_.end() || which >= found->second.size() ? nullptr : found->second[which];
+  }
+
+ private:
+  std::map<Key, std::vector<const DataArray*>> alike_;
 };
 
 }  // namespace
@@ -343,17 +344,18 @@ std::vector<DataArray> join_cell_arrays(const MeshData& mesh) {
   for (const OtherElements& other : mesh.other_elements) add(other.labels.size(), other.data);
   std::vector<DataArray> joined;
   for (std::size_t k = 0; k < kinds.size(); ++k) {
+    std::map<ArrayIndex::Key, std::size_t> seen;
     for (const DataArray& model : *kinds[k].arrays) {
-      const auto is_like = [&](const Kind& kind) { return kind.index.find_like(model) != nullptr; };
+      const std::size_t which = seen[ArrayIndex::key_of(model)]++;
+      const auto is_like = [&](const Kind& kind) {
+        return kind.index.find_like(model, which) != nullptr;
+      };
       const auto before = kinds.begin() + static_cast<std::ptrdiff_t>(k);
-      if (kinds[k].index.find_like(model) != &model ||
-          std::any_of(kinds.begin(), before, is_like)) {
-        continue;
-      }
+      if (std::any_of(kinds.begin(), before, is_like)) continue;
       DataArray& all = joined.emplace_back(DataArray{model.name, model.components, model.values});
       std::visit([](auto& values) { values.clear(); }, all.values);
       for (const Kind& kind : kinds) {
-        append(all, kind.index.find_like(model), kind.count * model.components);
+        append(all, kind.index.find_like(model, which), kind.count * model.components);
       }
     }
   }

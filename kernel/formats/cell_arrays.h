@@ -71,7 +71,8 @@ void adopt_point_arrays(MeshData& mesh, std::vector<DataArray> arrays, const Arr
 
 /// All arrays of the elements of `mesh` by name, for formats that have one array over all cells:
 /// tets, triangles, edges and others in this order. Where a kind of element has no such array, its
-/// cells get 0 (integers) or NaN.
+/// cells get 0 (integers) or NaN. Of several alike in one kind each is joined with one of the
+/// others, in their order.
 std::vector<DataArray> join_cell_arrays(const MeshData& mesh);
 
 /// The rows of an array with these numbers, in this order.

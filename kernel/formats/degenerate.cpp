@@ -167,16 +167,17 @@ struct Elements {
 
 class Dropping {
  public:
-  using PlaceOf = std::function<std::string(std::size_t)>;
+  using PlaceOf = std::function<std::string(int dimension, std::size_t number)>;
 
   Dropping(MeshData& mesh, const PlaceOf& place_of)
       : mesh_(mesh), place_of_(place_of), is_second_order_(mesh.tets.empty()) {}
 
   std::vector<std::uint32_t> run() {
-    std::vector<std::uint32_t> tets = find(list_of("tet", tets_of(mesh_)), !is_second_order_);
+    std::vector<std::uint32_t> tets =
+        find(list_of("tet", tets_of(mesh_)), is_second_order_ ? kNoPlaces : 3);
     erase(tets, tets_of(mesh_), 3);
-    erase(find(list_of("triangle", triangles_of(mesh_))), triangles_of(mesh_), 2);
-    erase(find(list_of("edge", edges_of(mesh_))), edges_of(mesh_), 1);
+    erase(find(list_of("triangle", triangles_of(mesh_)), 2), triangles_of(mesh_), 2);
+    erase(find(list_of("edge", edges_of(mesh_)), 1), edges_of(mesh_), 1);
     for (OtherElements& others : mesh_.other_elements) {
       const std::vector<std::uint32_t> dropped = drop_others(others);
       if (is_second_order_ && others.vtk_type == vtk_tet10) tets = dropped;
@@ -192,10 +193,10 @@ class Dropping {
             [&elements](std::size_t i) { return elements[i].label; }};
   }
 
-  /// Numbers of those to be dropped, ascending; they are noted.
-  std::vector<std::uint32_t> find(const Elements& elements, bool has_places = false) {
+  /// Numbers of those to be dropped, ascending; they are noted, with places of that dimension.
+  std::vector<std::uint32_t> find(const Elements& elements, int dimension) {
     std::vector<std::uint32_t> found = find_collapsed(elements.corners);
-    has_places_ = has_places && place_of_;
+    dimension_ = place_of_ ? dimension : kNoPlaces;
     note_collapsed(elements, found);
     if (elements.corners.width < 4) return found;
     const std::vector<Repeated> repeated = find_repeated(elements.corners, mesh_.points.size());
@@ -222,7 +223,7 @@ class Dropping {
 
   /// "a.mesh:12: ", or nothing
   std::string place_of(std::size_t i) const {
-    std::string place = has_places_ ? place_of_(i) : std::string();
+    std::string place = dimension_ == kNoPlaces ? std::string() : place_of_(dimension_, i);
     if (!place.empty()) place += ": ";
     return place;
   }
@@ -310,7 +311,7 @@ class Dropping {
                 name,
                 others.numbers,
                 [&](std::size_t i) { return others.labels[i]; }},
-               type == vtk_tet10 && is_second_order_);
+               type == vtk_tet10 && is_second_order_ ? 3 : kNoPlaces);
       if (dropped.empty()) return {};
       const std::vector<std::uint32_t> kept = others_than(dropped, others.labels.size());
       select(others.vertices, kept, kind->width);
@@ -324,17 +325,18 @@ class Dropping {
   }
 
   static constexpr std::uint32_t kGone = UINT32_MAX;
+  static constexpr int kNoPlaces = -1;  // the reader cannot be asked
 
   MeshData& mesh_;
   const PlaceOf& place_of_;
-  bool is_second_order_;     // which its tets will be
-  bool has_places_ = false;  // of the list at hand
+  bool is_second_order_;       // which its tets will be
+  int dimension_ = kNoPlaces;  // of the list at hand
 };
 
 }  // namespace
 
 std::vector<std::uint32_t> drop_degenerate(
-    MeshData& mesh, const std::function<std::string(std::size_t)>& place_of) {
+    MeshData& mesh, const std::function<std::string(int dimension, std::size_t number)>& place_of) {
   return Dropping(mesh, place_of).run();
 }
 

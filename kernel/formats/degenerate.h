@@ -17,13 +17,14 @@ namespace tetmend::formats {
 /// twice: their content is 0 wherever their vertices lie. And tets with the corners of an earlier
 /// one. A note names them. Other elements stay: a hexahedron may be collapsed to a prism.
 /// Precondition: the corners are points; those of second order are among the other elements.
-/// @param place_of  where in the file a tet stands that goes, by its number; empty: not known. Asked for
-/// the first of each note.
+/// @param place_of  where in the file an element stands that goes, by its dimension and its number
+/// among tets, triangles or edges; empty: not known. Asked for the first of each note.
 /// @return the numbers of the tets that went, ascending: of MeshData::tets or, where there are none, of
 /// those of second order
 /// Cost: linear; 12 bytes a tet meanwhile.
 std::vector<std::uint32_t> drop_degenerate(
-    MeshData& mesh, const std::function<std::string(std::size_t)>& place_of = {});
+    MeshData& mesh,
+    const std::function<std::string(int dimension, std::size_t number)>& place_of = {});
 
 /// True for such a note: of a mesh that is only measured, other notes are of no account.
 inline bool tells_of_dropped(std::string_view note) {

@@ -56,11 +56,28 @@ void read_element_rows(TextReader& text, std::size_t count, const Read& read, co
   }
 }
 
-/// Says where the tet that was added last stands, if that is the question. `question` may be null.
+/// True if the element that was added last, of that kind, is the one that is asked for. `question`
+/// may be null.
+inline bool is_last_asked_for(const TetPlace* question, const MeshData& mesh, int vtk_type) {
+  if (question == nullptr) return false;
+  const std::size_t last = question->tet + 1;
+  switch (question->dimension) {
+    case 3:
+      return vtk_type == vtk_tet && mesh.tets.size() == last;
+    case 2:
+      return vtk_type == vtk_triangle && mesh.triangles.size() == last;
+    default:
+      return vtk_type == vtk_edge && mesh.edges.size() == last;
+  }
+}
+
+/// Says where the element that was added last stands, if that is the question. `question` may be
+/// null.
 inline void answer(TetPlace* question, const MeshData& mesh, const TextReader& text,
                    const ElementRow& row) {
-  if (question == nullptr || row.kind->vtk_type != vtk_tet) return;
-  if (mesh.tets.size() == question->tet + 1) question->place = text.place_of(row.place);
+  if (is_last_asked_for(question, mesh, row.kind->vtk_type)) {
+    question->place = text.place_of(row.place);
+  }
 }
 
 /// All elements of one kind.

@@ -61,7 +61,7 @@ GmshRows& GmshElementReader::grow(int type, std::size_t count) {
   rows.labels.resize(size);
   rows.parts.resize(size);
   rows.vertices.resize(size * gmsh_type(type).width);
-  if (with_places_ && (type == gmsh_tet || type == gmsh_second_order_tet)) rows.places.resize(size);
+  if (with_places_) rows.places.resize(size);
   return rows;
 }
 
@@ -222,8 +222,7 @@ void GmshElementReader::add(const Row& row) {
     TextReader text = source_.text().trial(row.nodes);
     for (std::size_t k = 0; k < width; ++k) rows.vertices.push_back(vertex(text));
   }
-  if (with_places_ && (row.type == gmsh_tet || row.type == gmsh_second_order_tet))
-    rows.places.push_back(row.place);
+  if (with_places_) rows.places.push_back(row.place);
   partitioned_ |= row.partitioned;
 }
 

@@ -13,7 +13,7 @@ namespace tetmend::formats {
 
 class GmshElementReader {
  public:
-  /// With `with_places` the draft gets the place of each tet.
+  /// With `with_places` the draft gets the place of each element.
   GmshElementReader(GmshSource& source, const GmshNodes& nodes, GmshDraft& draft, bool with_places)
       : source_(source), nodes_(nodes), draft_(draft), with_places_(with_places) {}
 

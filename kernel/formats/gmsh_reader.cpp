@@ -363,12 +363,14 @@ class Reader {
   }
 
   void answer_question() {
+    if (question_ == nullptr) return;
     const bool is_second = draft_.rows[gmsh_tet].size() == 0;
-    const std::vector<const char*>& places =
-        draft_.rows[is_second ? gmsh_second_order_tet : gmsh_tet].places;
-    if (question_ != nullptr && question_->tet < places.size()) {
-      question_->place = text_.place_of(places[question_->tet]);
-    }
+    const auto type = question_->dimension == 1   ? gmsh_edge
+                      : question_->dimension == 2 ? gmsh_triangle
+                      : is_second                 ? gmsh_second_order_tet
+                                                  : gmsh_tet;
+    const std::vector<const char*>& places = draft_.rows[type].places;
+    if (question_->tet < places.size()) question_->place = text_.place_of(places[question_->tet]);
   }
 
   void refuse_without_tets() {

@@ -181,8 +181,8 @@ std::span<const MeshFormat> mesh_formats() {
 MeshData read_mesh(const std::filesystem::path& file, const std::string& label_array) {
   try {
     MeshData mesh = find_codec(file).read(file, {nullptr, label_array});
-    formats::drop_degenerate(mesh, [&](std::size_t tet) {
-      formats::TetPlace question{tet, {}};
+    formats::drop_degenerate(mesh, [&](int dimension, std::size_t number) {
+      formats::TetPlace question{number, {}, dimension};
       if (formats::is_standard_stream(file)) return question.place;  // it is read once
       find_codec(file).read(file, {&question, label_array});
       return question.place;

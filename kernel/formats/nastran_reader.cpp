@@ -352,9 +352,9 @@ class Reader {
       others.numbers.push_back(row_.number);
     } else {
       sorter_.add(row_, true);
-      const bool is_asked = question_ != nullptr && row_.kind->vtk_type == vtk_tet &&
-                            mesh_.tets.size() == question_->tet + 1;
-      if (is_asked) question_->place = sources_.file_of(row_.place).line_place(row_.place);
+      if (is_last_asked_for(question_, mesh_, row_.kind->vtk_type)) {
+        question_->place = sources_.file_of(row_.place).line_place(row_.place);
+      }
     }
     elements_.push_back({row_.number, row_.kind->vtk_type, row_.place});
   }

@@ -243,6 +243,7 @@ class Reader {
       row.kind = element_kind(place == 0 ? vtk_triangle : place == 1 ? vtk_quad : vtk_triangle6);
       read_vertices(text_, row, place == 2 ? kNetgenTriangle6.data() : nullptr);
       sorter_.add(row);
+      answer(question_, mesh_, text_, row);
       SurfaceArrays& arrays = arrays_[place];
       arrays.surface.push_back(surface);
       arrays.inside.push_back(inside);
@@ -280,6 +281,7 @@ class Reader {
     for (std::size_t i = 0; i < count; ++i) {
       Segment segment{};
       segment[0] = text_.label("the number of a surface");
+      const char* const place = text_.last_word();
       text_.label("a number");
       std::array<std::uint32_t, 2> ends{};
       for (std::uint32_t& end : ends) {
@@ -289,7 +291,7 @@ class Reader {
         segment[k] = text_.real("a number of an edge");
       }
       if (!is_full) text_.skip_line();
-      add_segment(ends, segment);
+      add_segment(ends, segment, place);
     }
     if (!is_full && count > 0) {
       mesh_.notes.push_back(
@@ -297,7 +299,7 @@ class Reader {
     }
   }
 
-  void add_segment(std::array<std::uint32_t, 2> ends, Segment segment) {
+  void add_segment(std::array<std::uint32_t, 2> ends, Segment segment, const char* place) {
     const auto [low, high] = std::minmax(ends[0], ends[1]);
     const auto [at, is_new] = edge_of_.try_emplace({low, high}, mesh_.edges.size());
     if (is_new) {
@@ -306,6 +308,9 @@ class Reader {
         text_.fail(fmt::format("{} is not the number of an edge: expected an integer", label));
       }
       mesh_.edges.push_back({ends, static_cast<Label>(label)});
+      if (is_asked_for(question_, mesh_.edges, mesh_.edges.back())) {
+        question_->place = text_.place_of(place);
+      }
       segments_.emplace_back();
     }
     segment[1] = mesh_.edges[at->second].vertices == ends ? 1 : -1;

@@ -249,6 +249,9 @@ class Reader {
         element.label =
             static_cast<Label>(table.integer("a boundary marker", INT32_MIN, INT32_MAX));
       }
+      if (is_asked_for(question_, elements, element)) {
+        question_->place = table.text().place_of(table.text().last_word());
+      }
       while (!table.text().word_on_line().empty()) {
       }
     }

@@ -72,7 +72,8 @@ class Reader {
   using Kind = VtuType::Kind;
   struct Arrays {
     std::vector<DataArray> all;
-    std::map<std::pair<std::string, std::size_t>, std::size_t> places;  // by name and components
+    using Key = std::pair<std::string, std::size_t>;      // name and components
+    std::map<Key, std::vector<std::size_t>> places = {};  // of all that are alike, in their order
   };
 
   ArrayFailure failure_in(const std::vector<DataArray>& arrays) const {
@@ -283,8 +284,10 @@ class Reader {
   }
 
   /// Several pieces have the same arrays.
+  /// Of several alike in a piece each goes on one of those of the pieces before, in their order.
   void read_arrays(const pugi::xml_node& parent, std::size_t rows, std::size_t rows_before,
                    bool is_first, Arrays& arrays) {
+    std::map<Arrays::Key, std::size_t> seen;
     for (const pugi::xml_node node : parent.children("DataArray")) {
       const std::string name = node.attribute("Name").as_string();
       if (find_type(node) == nullptr) {
@@ -299,11 +302,12 @@ class Reader {
         note(fmt::format("the array '{}' is not kept: it has numbers above {}", name, INT64_MAX));
         continue;
       }
-      const auto same = arrays.places.find({name, components});
-      if (same != arrays.places.end()) {
-        append(arrays.all[same->second], made);
+      std::vector<std::size_t>& alike = arrays.places[{name, components}];
+      const std::size_t which = seen[{name, components}]++;
+      if (which < alike.size()) {
+        append(arrays.all[alike[which]], made);
       } else if (is_first) {
-        arrays.places[{name, components}] = arrays.all.size();
+        alike.push_back(arrays.all.size());
         arrays.all.push_back(std::move(made));
       } else {
         note(fmt::format("the array {} is not kept: not every piece has it", in_quotes(name)));
@@ -336,7 +340,7 @@ class Reader {
     if (dropped == 0) return;
     arrays.places.clear();
     for (std::size_t i = 0; i < arrays.all.size(); ++i) {
-      arrays.places[{arrays.all[i].name, arrays.all[i].components}] = i;
+      arrays.places[{arrays.all[i].name, arrays.all[i].components}].push_back(i);
     }
   }
 

@@ -431,6 +431,36 @@ TEST_CASE("a run that ends with a worse figure goes back to the best of its pass
   CHECK(went_back(none.first, "0 of 3"));
 }
 
+TEST_CASE(
+    "who stops a run that goes back gets what it has reached on the way, and the note says so") {
+  MeshData data = kuhn_cube(4, 0.1, 1);
+  for (Point& p : data.points) p.z() *= 0.15;
+  const Mesh flat = MeshAccess::make(std::move(data));
+  const std::string spoil =
+      "local_reconnection{} smooth{} judge_by{measure = 'sine', price = 0} "
+      "for _ = 1, 3 do apply({'centroid_insertion', desperate = 2}, {on = 'all'}) end";
+  Mesh mesh = flat;
+  Stage stage = Stage::building;
+  int runs = 0;
+  const Result result = improve(
+      mesh, {.script = spoil, .layers = Layers::improve, .progress = [&](const Progress& progress) {
+               if (progress.stage == Stage::improving && stage != Stage::improving) ++runs;
+               stage = progress.stage;
+               return runs < 2 || progress.phase != "smooth";
+             }});
+  CHECK(runs == 2);
+  CHECK(result.ending == Ending::cancelled);
+  CHECK(result.worse().empty());
+  CHECK_FALSE(result.passes.empty());
+  CHECK(result.after.tets == mesh.tet_count());
+  CHECK(result.after.n_bad == measure(mesh).statistics.n_bad);
+  CHECK_FALSE(equal(mesh, flat));
+  CHECK(std::any_of(result.notes.begin(), result.notes.end(), [](const std::string& note) {
+    return note.starts_with("went back to the state after pass ") &&
+           note.ends_with("; it was stopped on the way to pass 2");
+  }));
+}
+
 TEST_CASE("a run tells how far it has come: stages, passes, notes") {
   Mesh mesh = load(asset("sheet.mesh"));
   std::vector<Stage> stages;

@@ -224,6 +224,24 @@ MeshData pass(const MeshData& mesh, const std::filesystem::path& file) {
 
 }  // namespace
 
+TEST_CASE("of arrays of one name and type none is lost in formats with arrays over all cells") {
+  MeshData mesh = contract::two_tets();
+  mesh.triangles = {{{0, 1, 2}, 3}};
+  mesh.tet_data = {{"stress", 1, std::vector<double>{1.5, 2.5}},
+                   {"stress", 1, std::vector<double>{3.5, 4.5}}};
+  mesh.triangle_data = {{"stress", 1, std::vector<double>{5.5}}};
+  const TempFolder folder;
+  for (const std::string name : {"a.vtu", "a.vtk"}) {
+    CAPTURE(name);
+    write_mesh(folder / name, mesh);
+    const MeshData back = read_mesh(folder / name);
+    REQUIRE(back.tet_data.size() == 2);
+    CHECK(std::get<std::vector<double>>(back.tet_data[0].values) == std::vector<double>{1.5, 2.5});
+    CHECK(std::get<std::vector<double>>(back.tet_data[1].values) == std::vector<double>{3.5, 4.5});
+    CHECK(std::get<std::vector<double>>(back.triangle_data[0].values) == std::vector<double>{5.5});
+  }
+}
+
 TEST_CASE("a mesh goes from each format to each other and back, or what is lost is named") {
   const std::vector<std::pair<std::string, MeshData>> meshes = {
       {"plain", contract::kuhn_cube(2, 0.1, 1)},

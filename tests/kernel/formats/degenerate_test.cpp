@@ -54,9 +54,9 @@ TEST_CASE("degenerate and repeated elements are dropped with a note, whatever th
     CHECK(tells(mesh, "tet 2 (vertices 2 3 3 4) has a vertex twice: dropped"));
     CHECK(tells(mesh, "tet 4 is tet 1 again: dropped"));
     for (const std::string& note : mesh.notes) {
-      if (note.find("tet ") == std::string::npos) continue;
+      if (!tells_of_dropped(note)) continue;
       CHECK(note.starts_with((folder / "").string()));  // the place in the file
-      CHECK(note.find(": ") < note.find("tet "));
+      CHECK(note.find(": ") < note.find(" (vertices "));
     }
   }
 }
@@ -71,6 +71,34 @@ TEST_CASE("the note on elements that are dropped has the line of the first") {
         std::vector<std::string>{file + ":11: 2 tets have a vertex twice, the first is tet 2 "
                                         "(vertices 2 3 3 4): dropped",
                                  file + ":14: tet 5 is tet 1 again: dropped"});
+}
+
+TEST_CASE("the note on triangles and edges that are dropped has the line of the first, too") {
+  const TempFolder folder;
+  const std::string tet_of_gmsh =
+      "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n4\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n"
+      "$EndNodes\n$Elements\n5\n1 2 2 1 1 1 2 3\n2 2 2 1 1 1 2 2\n3 1 2 1 1 1 2\n4 1 2 1 1 3 3\n"
+      "5 4 2 1 1 1 2 3 4\n$EndElements\n";
+  write_text(folder / "a.msh", tet_of_gmsh);
+  write_text(
+      folder / "a.mesh",
+      "MeshVersionFormatted 2\nDimension 3\nVertices 4\n0 0 0 0\n1 0 0 0\n0 1 0 0\n0 0 1 0\n"
+      "Triangles 2\n1 2 3 1\n1 2 2 1\nEdges 2\n1 2 1\n3 3 1\nTetrahedra 1\n1 2 3 4 1\nEnd\n");
+  write_text(folder / "a.node", "4 3 0 0\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n");
+  write_text(folder / "a.ele", "1 4 0\n1 1 2 3 4\n");
+  write_text(folder / "a.face", "2 1\n1 1 2 3 5\n2 1 2 2 5\n");
+  write_text(folder / "a.edge", "2 1\n1 1 2 5\n2 3 3 5\n");
+  const auto has_line = [&](const std::string& name, const std::string& place,
+                            std::string_view what) {
+    const MeshData mesh = read_mesh(folder / name);
+    return tells(mesh, (folder / place).string() + ": " + std::string(what));
+  };
+  CHECK(has_line("a.msh", "a.msh:14", "triangle 2 (vertices 1 2 2) has a vertex twice: dropped"));
+  CHECK(has_line("a.msh", "a.msh:16", "edge 2 (vertices 3 3) has a vertex twice: dropped"));
+  CHECK(has_line("a.mesh", "a.mesh:10", "triangle 2 (vertices 1 2 2) has a vertex twice: dropped"));
+  CHECK(has_line("a.mesh", "a.mesh:13", "edge 2 (vertices 3 3) has a vertex twice: dropped"));
+  CHECK(has_line("a.node", "a.face:3", "triangle 2 (vertices 1 2 2) has a vertex twice: dropped"));
+  CHECK(has_line("a.node", "a.edge:3", "edge 2 (vertices 3 3) has a vertex twice: dropped"));
 }
 
 TEST_CASE("what belongs to a dropped element goes with it, and the rest keeps what it has") {
