@@ -274,9 +274,9 @@ class Surveyor {
   Surveyor(const TetMesh& mesh, const Limits& limits, RulerHistograms* counts = nullptr)
       : mesh_(mesh),
         counts_(counts),
-        faces_above_70_{std::cos(70 * std::numbers::pi / 180)},
         tets_(limits, 0),
-        faces_(limits, kTetRulers) {}
+        faces_(limits, kTetRulers),
+        faces_above_70_{std::cos(70 * std::numbers::pi / 180)} {}
 
   Part run(std::size_t begin, std::size_t end, std::size_t step) {
     visit_rows(mesh_, begin, end, step, [&](const TetRows& rows) {

@@ -168,16 +168,23 @@ TETMEND_WIDE bool compute_diagonals(const PointRows<4>& rows, Shares<5>& shares)
   return are_positive;
 }
 
-/// Of the vertices of a block of tets: a scale, and edges on the way to the surface.
+/// Of a vertex: a scale, and edges on the way to the surface.
+struct ScaleAndDepth {
+  double scale = 0;
+  double depth = 0;
+};
+
+/// Of the vertices of a block of tets.
 struct VertexRows {
   std::array<WideRows<4>, kGroups> scale{};
   std::array<WideRows<4>, kGroups> depth{};
 };
 
-/// The product of the stiffness matrix, without signs, and the scale; then the energy of `depth`.
+/// The product of the stiffness matrix, without signs, and the scale. Adds the energy of `depth`.
 TETMEND_WIDE void compute_products(const PointRows<4>& rows, const VertexRows& vertices,
-                                   Shares<5>& shares) {
+                                   Shares<4>& shares, WideSum& energy) {
   for (std::size_t g = 0; g < rows.groups(); ++g) {
+    const auto in_use = lanes_in_use(rows, g);
     const WideFaces faces = faces_of(rows, g);
     const WideVector* const scale = vertices.scale[g].vectors();
     const WideVector* const depth = vertices.depth[g].vectors();
@@ -194,7 +201,7 @@ TETMEND_WIDE void compute_products(const PointRows<4>& rows, const VertexRows& v
       const WideVector rise = depth[i] - depth[0];
       gradient = {gradient.x + rise * n.x, gradient.y + rise * n.y, gradient.z + rise * n.z};
     }
-    to[4] = inverse * dot(gradient, gradient);
+    add_to(energy, in_use ? inverse * dot(gradient, gradient) : WideVector{});
   }
 }
 
@@ -255,11 +262,11 @@ class Depths {
 
   /// Two threads may both be first: then the tet is looked at twice, which changes nothing.
   bool is_first(TetHandle t) {
-    std::atomic<char>& reached = reached_[t.index()];
-    if (reached.load(kRelaxed) != 0) return false;
-    reached.store(1, kRelaxed);
+    if (reached_[t.index()].load(kRelaxed) != 0) return false;
+    mark(t);
     return true;
   }
+  void mark(TetHandle t) { reached_[t.index()].store(1, kRelaxed); }
 
   /// From the tets of the level to their neighbours, which are the next to be looked at.
   void spread(std::uint32_t depth) {
@@ -276,24 +283,24 @@ class Depths {
   }
 
   void look_around(TetHandle t, std::uint32_t depth, Found& found) {
+    Depth* const depths = depths_.data();  // stores of others do not change where they are
+    const std::atomic<char>* const reached = reached_.data();
     const TetVertices& v = mesh_.vertices(t);
     unsigned nearest = 0;  // a bit for each vertex of that depth
     for (unsigned k = 0; k < 4; ++k) {
-      Depth& of = depths_[v[k].index()];
-      const std::uint32_t now = of.load(kRelaxed);
-      nearest |= (now == depth ? 1u : 0u) << k;
-      if (now > depth + 1) of.store(depth + 1, kRelaxed);
+      const std::uint32_t now = depths[v[k].index()].load(kRelaxed);
+      nearest |= now == depth ? 1u << k : 0u;
+      if (now > depth + 1) depths[v[k].index()].store(depth + 1, kRelaxed);
     }
     const auto& twins = mesh_.neighbours(t);
     for (unsigned f = 0; f < 4; ++f) {
       if (twins[f].is_outside()) continue;
       const TetHandle other = twins[f].tet();
+      if (reached[other.index()].load(kRelaxed) != 0) continue;
       mesh_.prefetch(other);
-      if ((nearest & ~(1u << f)) != 0) {
-        if (is_first(other)) found.level.push_back(other);
-      } else if (reached_[other.index()].load(kRelaxed) == 0) {
-        found.farther.push_back(other);
-      }
+      const bool is_of_level = (nearest & ~(1u << f)) != 0;
+      if (is_of_level) mark(other);
+      (is_of_level ? found.level : found.farther).push_back(other);
     }
   }
 
@@ -342,39 +349,40 @@ double estimate_cg_steps(const TetMesh& mesh, const P1Diagonals& diagonals) {
   constexpr double kFactor = 8;
   if (!diagonals.are_positive) return 0;
   const std::vector<Depths::Depth> depths = Depths(mesh).find();
-  std::vector<double> scale(depths.size());
+  std::vector<ScaleAndDepth> vertices(depths.size());
   CompensatedSum squares;
   for (std::size_t i = 0; i < depths.size(); ++i) {
-    if (depths[i] == 0 || !diagonals.is_in_use(VertexHandle(static_cast<std::uint32_t>(i))))
-      continue;
-    const double depth = depths[i];
-    scale[i] = 1 / std::sqrt(diagonals.stiffness[i]);
+    const double depth = depths[i].load(kRelaxed);
+    vertices[i].depth = depth;
+    if (depth == 0 || !diagonals.is_in_use(VertexHandle(static_cast<std::uint32_t>(i)))) continue;
+    vertices[i].scale = 1 / std::sqrt(diagonals.stiffness[i]);
     squares.add(diagonals.stiffness[i] * depth * depth);
   }
   std::vector<double> rows(depths.size());
   std::vector<CompensatedSum> energies(chunk_count(mesh.tet_slots(), kTetsOfChunk));
-  SharesOfTets<5>(mesh).visit(
-      [&](std::size_t chunk, const TetRows& tets, Shares<5>& shares) {
-        VertexRows vertices;
+  SharesOfTets<4>(mesh).visit(
+      [&](std::size_t chunk, const TetRows& tets, Shares<4>& shares) {
+        VertexRows of;
         for (std::size_t i = 0; i < tets.points.size(); ++i) {
           const TetVertices& v = mesh.vertices(tets.tets[i]);
           for (std::size_t k = 0; k < 4; ++k) {
-            vertices.scale[i / kWideLanes].of[k][i % kWideLanes] = scale[v[k].index()];
-            vertices.depth[i / kWideLanes].of[k][i % kWideLanes] = depths[v[k].index()];
+            const auto& [scale, depth] = vertices[v[k].index()];
+            of.scale[i / kWideLanes].of[k][i % kWideLanes] = scale;
+            of.depth[i / kWideLanes].of[k][i % kWideLanes] = depth;
           }
         }
-        compute_products(tets.points, vertices, shares);
-        for (std::size_t i = 0; i < tets.points.size(); ++i) {
-          energies[chunk].add(shares[i / kWideLanes].of[4][i % kWideLanes]);
-        }
+        WideSum energy;
+        compute_products(tets.points, of, shares, energy);
+        energies[chunk].add(energy.total());
       },
-      [&](std::uint32_t v, std::size_t corner, const std::array<double, 5>& share) {
+      [&](std::uint32_t v, std::size_t corner, const std::array<double, 4>& share) {
         rows[v] += share[corner];
       });
   CompensatedSum energy;
   for (const CompensatedSum& part : energies) energy.add(part);
   double largest = 0;
-  for (std::size_t i = 0; i < rows.size(); ++i) largest = std::max(largest, scale[i] * rows[i]);
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    largest = std::max(largest, vertices[i].scale * rows[i]);
   if (largest == 0) return 0;  // no inner vertex
   const double condition = largest * largest * squares.value() / energy.value();
   const double fourth = std::sqrt(std::sqrt(condition));
