@@ -206,7 +206,7 @@ TETMEND_WIDE void compute_products(const PointRows<4>& rows, const VertexRows& v
 }
 
 constexpr auto kRelaxed = std::memory_order_relaxed;
-constexpr std::uint32_t kFar = std::numeric_limits<std::uint32_t>::max() / 2;
+constexpr std::uint32_t kNotReached = std::numeric_limits<std::uint32_t>::max() / 2;
 
 /// By vertex: the number of edges on the way to the surface. The tets of a level are those whose
 /// nearest vertex has its depth: their other vertices are one edge farther. All threads work on a
@@ -218,7 +218,7 @@ class Depths {
   explicit Depths(const TetMesh& mesh)
       : mesh_(mesh), depths_(mesh.vertex_slots()), reached_(mesh.tet_slots()) {
     for (std::uint32_t i = 0; i < depths_.size(); ++i) {
-      depths_[i].store(mesh.is_boundary(VertexHandle(i)) ? 0 : kFar, kRelaxed);
+      depths_[i].store(mesh.is_boundary(VertexHandle(i)) ? 0 : kNotReached, kRelaxed);
     }
   }
 
@@ -242,7 +242,8 @@ class Depths {
 
   std::vector<TetHandle> tets_at_surface() {
     const auto parts = map_chunks<std::vector<TetHandle>>(
-        mesh_.tet_slots(), [&](std::size_t begin, std::size_t end) {
+        mesh_.tet_slots(),
+        [&](std::size_t begin, std::size_t end) {
           std::vector<TetHandle> part;
           for (std::size_t i = begin; i < end; ++i) {
             const TetHandle t(static_cast<std::uint32_t>(i));
@@ -254,7 +255,8 @@ class Depths {
             if (std::any_of(v.begin(), v.end(), is_at_surface) && is_first(t)) part.push_back(t);
           }
           return part;
-        });
+        },
+        kTetsOfChunk);
     std::vector<TetHandle> tets;
     for (const auto& part : parts) tets.insert(tets.end(), part.begin(), part.end());
     return tets;
@@ -271,11 +273,14 @@ class Depths {
   /// From the tets of the level to their neighbours, which are the next to be looked at.
   void spread(std::uint32_t depth) {
     const std::vector<TetHandle> tets = std::exchange(level_, {});
-    const auto parts = map_chunks<Found>(tets.size(), [&](std::size_t begin, std::size_t end) {
-      Found found;
-      for (std::size_t i = begin; i < end; ++i) look_around(tets[i], depth, found);
-      return found;
-    });
+    const auto parts = map_chunks<Found>(
+        tets.size(),
+        [&](std::size_t begin, std::size_t end) {
+          Found found;
+          for (std::size_t i = begin; i < end; ++i) look_around(tets[i], depth, found);
+          return found;
+        },
+        kTetsOfChunk);
     for (const Found& part : parts) {
       level_.insert(level_.end(), part.level.begin(), part.level.end());
       farther_.insert(farther_.end(), part.farther.begin(), part.farther.end());
