@@ -41,6 +41,7 @@ class LocalLengths {
 
   /// Precondition: both are of the same file.
   SizeDrift drift_to(const LocalLengths& after) const;
+  friend bool operator==(const LocalLengths&, const LocalLengths&) = default;
 
  private:
   template <class IsKnown>
