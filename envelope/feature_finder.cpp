@@ -4,6 +4,10 @@
 
 #include <algorithm>
 #include <tuple>
+#include <vector>
+
+#include "kernel/chunks.h"
+#include "kernel/grouping.h"
 
 namespace tetmend {
 
@@ -44,17 +48,31 @@ bool same_kind(const SurfaceInput::Kind& a, const SurfaceInput::Kind& b) {
 
 }  // namespace
 
+/// By ends, then by face: in groups of the lower end first, which have few sides each.
 void FeatureFinder::sort_sides() {
+  std::vector<Side> sides;
+  sides.reserve(3 * found_.faces.size());
+  std::vector<std::uint32_t> lower;
+  lower.reserve(sides.capacity());
   for (std::uint32_t i = 0; i < found_.faces.size(); ++i) {
     const auto& v = found_.faces[i].vertices;
     for (unsigned k = 0; k < 3; ++k) {
       const VertexHandle a = v[k];
       const VertexHandle b = v[(k + 1) % 3];
-      sides_.push_back({ends_of(a, b), i, a < b});
+      sides.push_back({ends_of(a, b), i, a < b});
+      lower.push_back(sides.back().ends[0].index());
     }
   }
-  std::sort(sides_.begin(), sides_.end(), [](const Side& a, const Side& b) {
-    return std::tie(a.ends, a.face) < std::tie(b.ends, b.face);
+  const Grouping groups = group_by_key(lower, static_cast<std::uint32_t>(points_.size()));
+  sides_.reserve(sides.size());
+  for (const std::uint32_t i : groups.order) sides_.push_back(sides[i]);
+  for_chunks(points_.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t v = begin; v < end; ++v) {
+      std::sort(sides_.begin() + groups.begin[v], sides_.begin() + groups.begin[v + 1],
+                [](const Side& a, const Side& b) {
+                  return std::tie(a.ends[1], a.face) < std::tie(b.ends[1], b.face);
+                });
+    }
   });
   for (std::uint32_t i = 0; i < sides_.size(); ++i) {
     if (i == 0 || sides_[i].ends != sides_[i - 1].ends) group_.push_back(i);

@@ -224,8 +224,9 @@ std::vector<std::string> advice_after(const TetMesh& mesh, const MeshData& input
                                 share_of_bad(held.by_surface, held.bad)));
   }
   if (held.bad >= kLeastOffer && offers_flat(options, result)) {
-    const std::size_t freed = estimate_freed_by_flat(mesh, input, held.bad);
-    if (freed >= kLeastOffer && 20 * freed >= held.bad) {
+    const std::size_t least = std::max(kLeastOffer, (held.bad + 19) / 20);  // a twentieth
+    const std::size_t freed = estimate_freed_by_flat(mesh, input, held.bad, least);
+    if (freed >= least) {
       texts.push_back(fmt::format("about {} of the {} bad tets left would go with --surface flat",
                                   grouped(freed), grouped(held.bad)));
     }

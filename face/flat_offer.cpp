@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <vector>
 
 #include "envelope/features.h"
@@ -69,30 +70,50 @@ std::vector<SurfacePlace> places_on_flat(const TetMesh& mesh, const MeshData& in
       .places;
 }
 
+template <class Counted, class Count>
+std::vector<Counted> count_bad(const TetMesh& mesh, const Count& count) {
+  return map_chunks<Counted>(mesh.tet_slots(), [&](std::size_t begin, std::size_t end) {
+    Counted counted{};
+    mesh.visit_below(kBadThreshold, begin, end, [&](TetHandle t) {
+      if (!mesh.is_frozen(t)) count(t, counted);
+    });
+    return counted;
+  });
+}
+
+/// What of bad tets goes, by kind.
+constexpr double kBesideMovable = 0.9;
+constexpr double kInWall = 0.5;
+constexpr double kAtFace = 0.7;
+
+/// No more than that can go: of a tet inside nothing does.
+double most_freed(const TetMesh& mesh) {
+  const auto counts = count_bad<std::size_t>(mesh, [&](TetHandle t, std::size_t& counted) {
+    const TetVertices& v = mesh.vertices(t);
+    const auto is_fixed = [&](VertexHandle w) { return mesh.is_fixed(w); };
+    counted += std::any_of(v.begin(), v.end(), is_fixed) ? 1 : 0;
+  });
+  return kBesideMovable *
+         static_cast<double>(std::accumulate(counts.begin(), counts.end(), std::size_t{0}));
+}
+
 }  // namespace
 
-std::size_t estimate_freed_by_flat(const TetMesh& mesh, const MeshData& input, std::size_t bad) {
+std::size_t estimate_freed_by_flat(const TetMesh& mesh, const MeshData& input, std::size_t bad,
+                                   std::size_t least) {
   if (!input.mid_nodes.empty() || bad == 0) return 0;
+  if (most_freed(mesh) + 0.5 < static_cast<double>(least)) return 0;
   const std::vector<SurfacePlace> places = places_on_flat(mesh, input);
   const FlatSurface surface(mesh, places);
   FreedTets freed;
-  for (const FreedTets& part :
-       map_chunks<FreedTets>(mesh.tet_slots(), [&](std::size_t begin, std::size_t end) {
-         FreedTets counted;
-         mesh.visit_below(kBadThreshold, begin, end, [&](TetHandle t) {
-           if (!mesh.is_frozen(t)) surface.add(t, counted);
-         });
-         return counted;
-       })) {
+  for (const FreedTets& part : count_bad<FreedTets>(
+           mesh, [&](TetHandle t, FreedTets&counted) { surface.add(t, counted); })) {
     freed.beside_movable += part.beside_movable;
     freed.in_wall += part.in_wall;
     freed.at_face += part.at_face;
   }
   // Bad tets side by side leave each other no room, least of all for splits.
   const double room = 1 - static_cast<double>(bad) / static_cast<double>(mesh.tet_count());
-  constexpr double kBesideMovable = 0.9;
-  constexpr double kInWall = 0.5;
-  constexpr double kAtFace = 0.7;
   const double sum = kBesideMovable * static_cast<double>(freed.beside_movable) +
                      kInWall * room * static_cast<double>(freed.in_wall) +
                      kAtFace * room * room * room * static_cast<double>(freed.at_face);

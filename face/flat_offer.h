@@ -14,6 +14,9 @@ namespace tetmend::face {
 /// tets no more than a run does. Cost: one look at each bad tet, and that of find_features().
 /// @param input what the mesh was built of
 /// @param bad how many tets are bad that are not frozen
-std::size_t estimate_freed_by_flat(const TetMesh& mesh, const MeshData& input, std::size_t bad);
+/// @param least  where fewer than that can go, the answer is 0: then too few bad tets lie at the
+/// surface, and nothing else is looked at
+std::size_t estimate_freed_by_flat(const TetMesh& mesh, const MeshData& input, std::size_t bad,
+                                   std::size_t least);
 
 }  // namespace tetmend::face

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "kernel/chunks.h"
 #include "kernel/from_chars.h"
 #include "kernel/grouped.h"
 #include "kernel/star.h"
@@ -74,16 +75,43 @@ std::optional<std::size_t> Growth::most(std::size_t now) const {
 }
 
 LocalLengths::LocalLengths(const TetMesh& mesh, std::size_t count) {
-  const std::size_t step = count / kSample + 1;
-  lengths_.assign((count + step - 1) / step, 0);
-  Workspace workspace(mesh);
-  for (std::uint32_t i = 0; i < mesh.vertex_slots(); ++i) {
-    const VertexHandle v(i);
-    if (mesh.is_deleted(v)) continue;
-    const std::uint32_t number = mesh.origin(v);
-    if (number == TetMesh::kNotFromFile || number % step != 0) continue;
-    lengths_[number / step] = local_length(mesh, v, workspace);
-  }
+  step_ = count / kSample + 1;
+  lengths_.assign((count + step_ - 1) / step_, 0);
+  measure(mesh, [](VertexHandle) { return false; });
+}
+
+LocalLengths LocalLengths::renewed(const TetMesh& mesh) const {
+  LocalLengths now;
+  now.step_ = step_;
+  now.lengths_.assign(lengths_.size(), 0);
+  now.measure(mesh, [&](VertexHandle v) {
+    if (mesh.changed(v) != 0 || mesh.moved(v) != 0) return false;
+    now.lengths_[mesh.origin(v) / step_] = lengths_[mesh.origin(v) / step_];
+    return true;
+  });
+  return now;
+}
+
+/// At the chosen vertices for which is_known(v) is false.
+template <class IsKnown>
+void LocalLengths::measure(const TetMesh& mesh, const IsKnown& is_known) {
+  constexpr std::size_t kVerticesOfChunk = 4096;
+  const Workspace first(mesh);
+  for_chunks(
+      mesh.vertex_slots(),
+      [&](std::size_t begin, std::size_t end) {
+        Workspace workspace = Workspace::without_slots(first);
+        for (std::size_t i = begin; i < end; ++i) {
+          const VertexHandle v(static_cast<std::uint32_t>(i));
+          const std::uint32_t number = mesh.origin(v);
+          if (number == TetMesh::kNotFromFile || number % step_ != 0 || mesh.is_deleted(v) ||
+              is_known(v)) {
+            continue;
+          }
+          lengths_[number / step_] = local_length(mesh, v, workspace);
+        }
+      },
+      kVerticesOfChunk);
 }
 
 SizeDrift LocalLengths::drift_to(const LocalLengths& after) const {

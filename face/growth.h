@@ -35,10 +35,19 @@ class LocalLengths {
   /// walk around each of the chosen.
   LocalLengths(const TetMesh& mesh, std::size_t count);
 
+  /// At the same vertices by now. Looks only where something has changed since these were measured.
+  /// Precondition: that was when nothing had changed since the mesh was built of that file.
+  LocalLengths renewed(const TetMesh& mesh) const;
+
   /// Precondition: both are of the same file.
   SizeDrift drift_to(const LocalLengths& after) const;
+  friend bool operator==(const LocalLengths&, const LocalLengths&) = default;
 
  private:
+  template <class IsKnown>
+  void measure(const TetMesh& mesh, const IsKnown& is_known);
+
+  std::size_t step_ = 1;         // every so-manieth vertex of the file
   std::vector<double> lengths_;  // 0 for a vertex that is not there
 };
 

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <optional>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -39,6 +40,7 @@
 #include "kernel/integrity.h"
 #include "kernel/rulers.h"
 #include "kernel/size_field.h"
+#include "kernel/solver_rulers.h"
 #include "kernel/surface_fingerprint.h"
 #include "kernel/volume_rounding.h"
 #include "platform/platform.h"
@@ -188,6 +190,7 @@ class Improvement {
   std::size_t vertices_before_ = 0;
   std::uint64_t surface_before_ = 0;
   QualityIndicators first_;
+  std::optional<P1Diagonals> diagonals_;  // of mesh_, from its building to its first change
   face::LocalLengths lengths_;
   std::shared_ptr<const SizeField> size_field_;
   std::shared_ptr<const CurvedEdges> curved_edges_;
@@ -238,8 +241,8 @@ void Improvement::build_mesh(MeshData& data, Mending mending) {
   result_.protected_bad_tets = part.bad_tets;
   result_.layer_tets = part.layer_tets;
   result_.layer_bad_tets = part.layer_bad_tets;
-  Bounds bounds = Bounds::of(
-      mesh_, plan_.purpose.keeps_step ? Bounds::Holding::solver : Bounds::Holding::angles);
+  if (plan_.purpose.keeps_step) diagonals_ = p1_diagonals(mesh_);
+  Bounds bounds = diagonals_ ? Bounds::of(mesh_, *diagonals_) : Bounds::of(mesh_);
   // A mesh with inverted tets has no step, and what its angles are says little.
   result_.holds_solver = plan_.purpose.keeps_step && !bounds.are_of_inverted();
   if (!result_.holds_solver) bounds = Bounds::of(mesh_);
@@ -271,13 +274,13 @@ void Improvement::measure_before() {
   if (curved_edges_) result_.curved_before = curved_statistics(input_, mesh_);
   if (plan_.sizes.are_wanted()) result_.sizes_before = face::size_statistics(mesh_);
   if (options_.rulers) {
-    result_.rulers_before = measure_rulers(mesh_);
+    result_.rulers_before = diagonals_ ? measure_rulers(mesh_, *diagonals_) : measure_rulers(mesh_);
     lengths_ = face::LocalLengths(mesh_, vertices_before_);
   }
   surface_before_ = result_.surface_fingerprint_before = surface_fingerprint(mesh_);
   if (!plan_.surface.is_fixed())
     result_.surface_change = face::SurfaceTolerance::measure_before(mesh_);
-  result_.not_positive_before = count_not_positive(mesh_);
+  result_.not_positive_before = count_not_positive(mesh_, result_.before);
   note(deck_remarks(input_));
   note(face::advice_before(mesh_, result_));
   if (const auto most = plan_.growth.most(result_.before.tets);
@@ -291,7 +294,8 @@ void Improvement::measure_before() {
 
 /// The passes of the schedule, or so many of them, for so many seconds; 0: without a limit.
 void Improvement::run_schedule(std::size_t passes, double seconds) {
-  trace_.reset();  // of the run before, when going back
+  diagonals_.reset();  // the mesh changes
+  trace_.reset();      // of the run before, when going back
   trace_ = plan_.trace.start(mesh_, file_, plan_.schedule, plan_.settings);
   Run run(mesh_, plan_.registry);
   if (const auto most = plan_.growth.most(result_.before.tets)) run.set_most_tets(*most);
@@ -336,7 +340,7 @@ void Improvement::measure_after() {
   result_.after = compute_statistics(mesh_, options_.goal);
   if (options_.rulers) {
     result_.rulers_after = measure_rulers(mesh_);
-    result_.size_drift = lengths_.drift_to(face::LocalLengths(mesh_, vertices_before_));
+    result_.size_drift = lengths_.drift_to(lengths_.renewed(mesh_));
   }
   if (curved_edges_) result_.curved_after = curved_edges_->statistics(mesh_);
   if (plan_.sizes.are_wanted()) result_.sizes_after = face::size_statistics(mesh_);
@@ -344,7 +348,7 @@ void Improvement::measure_after() {
   if (result_.surface_change) {
     face::SurfaceTolerance::measure_after(mesh_, *result_.surface_change);
   }
-  result_.not_positive_after = count_not_positive(mesh_);
+  result_.not_positive_after = count_not_positive(mesh_, result_.after);
   result_.touched_tets = count_touched(mesh_);
   std::vector<std::pair<TetHandle, Hindrance>> hindrances;
   if (options_.limit) result_.limit = find_surface_limit(mesh_, options_.cancel, &hindrances);

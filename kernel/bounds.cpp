@@ -96,6 +96,15 @@ Shape worst_shape(const TetMesh& mesh, Quality from, Quality to) {
 }  // namespace
 
 Bounds Bounds::of(const TetMesh& mesh, Holding holding) {
+  if (holding == Holding::angles) return of(mesh, std::optional<double>());
+  return of(mesh, p1_diagonals(mesh));
+}
+
+Bounds Bounds::of(const TetMesh& mesh, const P1Diagonals& diagonals) {
+  return of(mesh, std::optional(stable_step(diagonals)));
+}
+
+Bounds Bounds::of(const TetMesh& mesh, std::optional<double> step) {
   constexpr Quality kInfinity = std::numeric_limits<Quality>::infinity();
   const Standard& standard = mesh.standard();
   Shape worst = worst_shape(mesh, -kInfinity, kBadThreshold);
@@ -111,13 +120,13 @@ Bounds Bounds::of(const TetMesh& mesh, Holding holding) {
   };
   // What is safe cannot be worse: with some bad tets that is all the rest, as a rule.
   const bool has_flat = worst.obtuse_sine2 < 1 / standard.obtuse2();
-  const bool is_soft = holding == Holding::angles;
+  const bool is_soft = !step;
   if (is_soft && !has_flat) worst.obtuse_sine2 = 1 / standard.obtuse2();
   const Quality safe = has_flat || is_soft ? bounds_by().safe() : kInfinity;
   if (safe > kBadThreshold) worst.include(worst_shape(mesh, kBadThreshold, safe));
   Bounds now = bounds_by();
-  const double step = is_soft ? 0 : stable_step(mesh);
-  now.least_step2_ = step * step * (1 - 1e-9);  // sums in another order differ by rounding
+  const double held = step.value_or(0);
+  now.least_step2_ = held * held * (1 - 1e-9);  // sums in another order differ by rounding
   // A mesh that has bounds keeps them, with its angles of now where these are tighter.
   if (!mesh.bounds().any()) return now;
   Bounds tighter = mesh.bounds();

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <limits>
+#include <optional>
 
 #include <tetmend/api.h>
 
@@ -10,6 +11,7 @@
 
 namespace tetmend {
 
+struct P1Diagonals;
 class TetMesh;
 
 /// Bounds on every new tet: those of the worst tets that a run began with. The quality of a tet
@@ -29,6 +31,8 @@ class TETMEND_API Bounds {
   /// radius ratio, no larger ratio of edges of a tet than it has or 10, no smaller stable step at a vertex. Bounds that a mesh has stay; its
   /// angles of now make them tighter. Cost: one pass over the tets. An inverted tet counts as below.
   static Bounds of(const TetMesh& mesh, Holding holding = Holding::angles);
+  /// Those for a solver, where the sums behind the stable step are known.
+  static Bounds of(const TetMesh& mesh, const P1Diagonals& diagonals);
   /// Of no tet yet: what the goal allows, to be widened tet by tet. What comes of it are the bounds of a
   /// mesh of these tets, in whatever order they came.
   static Bounds of_goal(const Standard& standard);
@@ -62,6 +66,8 @@ class TETMEND_API Bounds {
   Bounds with_mean(double mean_ratio) const;
 
  private:
+  /// @param step to be held; nothing: none, and the angles are the goal's where these are larger
+  static Bounds of(const TetMesh& mesh, std::optional<double> step);
   bool any() const { return safe_ > -std::numeric_limits<double>::infinity(); }
 
   double least_sine2_ = 0;           // of an acute angle

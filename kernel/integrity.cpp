@@ -384,4 +384,8 @@ std::size_t count_not_positive(const TetMesh& mesh) {
   return count.zero + count.negative;
 }
 
+std::size_t count_not_positive(const TetMesh& mesh, const MeshStatistics& statistics) {
+  return statistics.flat == 0 ? statistics.inverted : count_not_positive(mesh);
+}
+
 }  // namespace tetmend

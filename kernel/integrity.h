@@ -8,6 +8,8 @@
 #include <string_view>
 #include <vector>
 
+#include <tetmend/statistics.h>
+
 #include "kernel/tet_mesh.h"
 
 namespace tetmend {
@@ -45,5 +47,9 @@ std::string to_string(const std::vector<Finding>& findings);
 
 /// Live tets whose volume is not positive, in exact arithmetic. Cost: linear.
 std::size_t count_not_positive(const TetMesh& mesh);
+
+/// The same, where the statistics of the mesh are known: they tell certain signs from others.
+/// Cost: none, unless some tet is too flat to tell.
+std::size_t count_not_positive(const TetMesh& mesh, const MeshStatistics& statistics);
 
 }  // namespace tetmend

@@ -175,7 +175,8 @@ TETMEND_WIDE void measure(const PointRows<4>& rows, Tally<kTetRulers>& tally,
 
 /// What the four faces of each tet of a block have beyond them: a vertex of the tet there.
 struct Surroundings {
-  enum Kind { elsewhere, inner, boundary };  // a face that another tet counts, and those that count
+  // A face that another tet counts, and those that count.
+  static constexpr double elsewhere = 0, inner = 1, boundary = 2;
   PointRows<4> points;
   std::array<std::array<WideVector, PointRows<4>::kMost / kWideLanes>, 4> kinds;
 
@@ -227,19 +228,27 @@ TETMEND_WIDE_INLINE FaceScores score_face(const WidePoint& apex, const WidePoint
   return {lengths > 0.0 ? along / lengths : WideVector{}, -(skew2 / (extent + kTiny))};
 }
 
-/// Enters the scores of face f of each tet of a block.
+/// Faces between two tets of a larger non-orthogonality than that of a cosine.
+struct FacesAbove {
+  double cosine;
+  WideVector counts = {};
+};
+
+/// Enters the scores of face f of each tet of a block, and counts those of more than 70 degrees.
 TETMEND_WIDE void measure_faces(const PointRows<4>& rows, const Surroundings& surroundings,
-                                unsigned f, Tally<kFaceRulers>& tally) {
+                                unsigned f, Tally<kFaceRulers>& tally, FacesAbove& above) {
   const auto& [i, j, k] = kFaceVertices[f];
+  const WideVector zero = {};
+  const WideVector one = zero + 1.0;
   for (std::size_t g = 0; g < rows.groups(); ++g) {
     const auto& group = rows.group(g);
     const WideVector kind = surroundings.kinds[f][g];
-    const FaceScores scores =
-        score_face(wide_point(group, f), wide_point(group, i), wide_point(group, j),
-                   wide_point(group, k), wide_point(surroundings.points.group(g), f),
-                   kind == static_cast<double>(Surroundings::boundary));
-    enter(tally, 0, g, scores.cosine, kind == static_cast<double>(Surroundings::inner));
-    enter(tally, 1, g, scores.skewness, kind != static_cast<double>(Surroundings::elsewhere));
+    const FaceScores scores = score_face(
+        wide_point(group, f), wide_point(group, i), wide_point(group, j), wide_point(group, k),
+        wide_point(surroundings.points.group(g), f), kind == Surroundings::boundary);
+    enter(tally, 0, g, scores.cosine, kind == Surroundings::inner);
+    above.counts += tally.scores[0][g] < above.cosine ? one : zero;
+    enter(tally, 1, g, scores.skewness, kind != Surroundings::elsewhere);
   }
 }
 
@@ -265,9 +274,9 @@ class Surveyor {
   Surveyor(const TetMesh& mesh, const Limits& limits, RulerHistograms* counts = nullptr)
       : mesh_(mesh),
         counts_(counts),
-        above_70_(std::cos(70 * std::numbers::pi / 180)),
         tets_(limits, 0),
-        faces_(limits, kTetRulers) {}
+        faces_(limits, kTetRulers),
+        faces_above_70_{std::cos(70 * std::numbers::pi / 180)} {}
 
   Part run(std::size_t begin, std::size_t end, std::size_t step) {
     visit_rows(mesh_, begin, end, step, [&](const TetRows& rows) {
@@ -281,17 +290,14 @@ class Surveyor {
       count(tets_, 0, rows.points.size());
       look_around(rows);
       for (unsigned f = 0; f < 4; ++f) {
-        measure_faces(rows.points, surroundings_, f, faces_);
+        measure_faces(rows.points, surroundings_, f, faces_, faces_above_70_);
         sift(faces_, kTetRulers);
         count(faces_, kTetRulers, rows.points.size());
-        const auto* cosines = reinterpret_cast<const double*>(faces_.scores[0].data());
-        for (std::size_t i = 0; i < rows.points.size(); ++i) {
-          part_.faces_above_70 += cosines[i] < above_70_ ? 1 : 0;
-        }
       }
     });
     for (std::size_t i = 0; i < kWideLanes; ++i) {
       part_.shortest_edge = std::min<double>(part_.shortest_edge, shortest_edge_[i]);
+      part_.faces_above_70 += static_cast<std::size_t>(faces_above_70_.counts[i]);
     }
     for (std::size_t r = 0; r < kTetRulers; ++r) close(tets_, r, r);
     for (std::size_t r = 0; r < kFaceRulers; ++r) close(faces_, r, kTetRulers + r);
@@ -337,44 +343,51 @@ class Surveyor {
   void look_around(const TetRows& rows) {
     surroundings_.points.clear();
     const std::size_t size = rows.points.size();
-    std::array<std::size_t, 3> count{};
+    std::size_t inner = 0, boundary = 0;
     for (std::size_t i = 0; i < size; ++i) {
       const TetHandle t = rows.tets[i];
+      const auto& twins = mesh_.neighbours(t);
       std::array<const Point*, 4> beyond;
       for (unsigned f = 0; f < 4; ++f) {
-        const HalfFace twin = mesh_.neighbours(t)[f];
-        const bool outside = twin.is_outside();
-        const HalfFace other = outside ? HalfFace(t, f) : twin;
+        const bool is_outside = twins[f].is_outside();
+        const HalfFace other = is_outside ? HalfFace(t, f) : twins[f];
+        const bool is_inner = t < other.tet();
         beyond[f] = &mesh_.point(mesh_.vertices(other.tet())[other.face()]);
-        const auto kind = outside           ? Surroundings::boundary
-                          : t < other.tet() ? Surroundings::inner
-                                            : Surroundings::elsewhere;
-        surroundings_.kinds[f][i / kWideLanes][i % kWideLanes] = kind;
-        ++count[kind];
+        surroundings_.kinds[f][i / kWideLanes][i % kWideLanes] = is_outside ? Surroundings::boundary
+                                                                 : is_inner
+                                                                     ? Surroundings::inner
+                                                                     : Surroundings::elsewhere;
+        inner += is_inner ? 1 : 0;
+        boundary += is_outside ? 1 : 0;
       }
       surroundings_.points.add(beyond);
     }
     surroundings_.pad();
-    const std::size_t inner = count[Surroundings::inner];
     for (std::size_t r = 0; r < kTetRulers; ++r) part_.of[r].count += size;
     part_.of[at(Ruler::non_orthogonality)].count += inner;
-    part_.of[at(Ruler::skewness)].count += inner + count[Surroundings::boundary];
+    part_.of[at(Ruler::skewness)].count += inner + boundary;
   }
 
   const TetMesh& mesh_;
   RulerHistograms* counts_;
-  const double above_70_;
   Surroundings surroundings_;
   Tally<kTetRulers> tets_;
   Tally<kFaceRulers> faces_;
+  FacesAbove faces_above_70_;
   WideVector shortest_edge_ = WideVector{} + kInfinity;
   Part part_;
 };
 
+/// Small meshes are to keep several threads busy, too.
+constexpr std::size_t kTetsOfPart = kChunkSize / 4;
+
 std::vector<Part> survey(const TetMesh& mesh, const Limits& limits, std::size_t step) {
-  return map_chunks<Part>(mesh.tet_slots(), [&](std::size_t begin, std::size_t end) {
-    return Surveyor(mesh, limits).run(begin, end, step);
-  });
+  return map_chunks<Part>(
+      mesh.tet_slots(),
+      [&](std::size_t begin, std::size_t end) {
+        return Surveyor(mesh, limits).run(begin, end, step);
+      },
+      step * kTetsOfPart);
 }
 
 /// Score number `rank`, from 0 for the worst; nothing if too few lie below the limit.
@@ -465,6 +478,10 @@ RulerFigures step_figures(const P1Diagonals& diagonals) {
 }  // namespace
 
 MeshRulers measure_rulers(const TetMesh& mesh) {
+  return measure_rulers(mesh, p1_diagonals(mesh));
+}
+
+MeshRulers measure_rulers(const TetMesh& mesh, const P1Diagonals& diagonals) {
   Limits limits = estimate_limits(mesh);
   auto parts = survey(mesh, limits, 1);
   MeshRulers result;
@@ -483,7 +500,6 @@ MeshRulers measure_rulers(const TetMesh& mesh) {
     }
     result.figures[r] = *figures;
   }
-  const P1Diagonals diagonals = p1_diagonals(mesh);
   result.figures[at(Ruler::step)] = step_figures(diagonals);
   result.cg_steps = estimate_cg_steps(mesh, diagonals);
   result.work = static_cast<double>(mesh.tet_count()) * result.cg_steps;

@@ -4,6 +4,7 @@
 
 #include <tetmend/rulers.h>
 
+#include "kernel/solver_rulers.h"
 #include "kernel/tet_mesh.h"
 
 namespace tetmend {
@@ -14,5 +15,7 @@ namespace tetmend {
 /// a million tets on one thread. Source: Gmsh 4 (gamma, SICN, SIGE), Verdict as in VTK 9 (condition
 /// number, aspect ratio, edge ratio), checkMesh of OpenFOAM (non-orthogonality, skewness).
 MeshRulers measure_rulers(const TetMesh& mesh);
+/// The same, where the sums at the vertices are known. Cost: one pass over the tets at vertices less.
+MeshRulers measure_rulers(const TetMesh& mesh, const P1Diagonals& diagonals);
 
 }  // namespace tetmend

@@ -48,7 +48,8 @@ struct TETMEND_API P1Diagonals {
 };
 
 /// The sums run in the order of the tets, whatever the number of threads.
-/// Cost: linear, about 0.02 s for a million tets; 16 bytes a vertex, and a buffer of 40 MB at most.
+/// Cost: linear, on all threads, about 0.02 s for a million tets on one; 16 bytes a vertex, and 0.7 MB
+/// a thread.
 TETMEND_API P1Diagonals p1_diagonals(const TetMesh& mesh);
 
 /// The smallest sqrt(m_i / k_ii) over the vertices, m the lumped mass and k the stiffness matrix of
@@ -66,8 +67,8 @@ TETMEND_API std::optional<double> squared_step_at(const TetMesh& mesh, VertexHan
 /// How many steps conjugate gradients with Jacobi's preconditioner take to 1e-8, for the Laplacian
 /// with linear elements and the surface fixed: an estimate from sums over the mesh, not an integer.
 /// 0 for a mesh with a tet of no positive volume, or without an inner vertex. docs/glossary.md says
-/// how good it is. Cost: linear, about 0.06 s for a million tets; 16 bytes a vertex more than
-/// p1_diagonals().
+/// how good it is. Cost: linear, on all threads, about 0.06 s for a million tets on one; 28 bytes a
+/// vertex and some 10 a tet more than p1_diagonals().
 TETMEND_API double estimate_cg_steps(const TetMesh& mesh, const P1Diagonals& diagonals);
 
 }  // namespace tetmend

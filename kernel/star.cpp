@@ -20,8 +20,8 @@ void prefetch_neighbours(const TetMesh& mesh, TetHandle t) {
 
 constexpr std::size_t kAnySize = std::numeric_limits<std::size_t>::max();
 
-/// Calls visit(half-face opposite v) for each tet of the star until it returns true, or `most` tets
-/// are not all.
+/// Calls visit(opposite, entered) for each tet of the star until it returns true, or `most` tets are
+/// not all: the half-face opposite v, and the one through which the walk came, invalid for the first.
 template <class Visit>
 StarKind walk_star(const TetMesh& mesh, VertexHandle v, Workspace& workspace, std::size_t most,
                    std::vector<HalfFace>& queue, Visit&& visit) {
@@ -33,7 +33,7 @@ StarKind walk_star(const TetMesh& mesh, VertexHandle v, Workspace& workspace, st
   seen.clear();
   seen.insert(first.index());
   queue.push_back(HalfFace(first, mesh.local_index(first, v)));
-  if (visit(queue.back())) return StarKind::whole;
+  if (visit(queue.back(), HalfFace())) return StarKind::whole;
   for (std::size_t i = 0; i < queue.size(); ++i) {
     const HalfFace opposite = queue[i];
     const auto& neighbours = mesh.neighbours(opposite.tet());
@@ -44,13 +44,13 @@ StarKind walk_star(const TetMesh& mesh, VertexHandle v, Workspace& workspace, st
       if (queue.size() == most) return StarKind::too_large;
       queue.push_back(HalfFace(twin.tet(), mesh.local_index(twin.tet(), v)));
       prefetch_neighbours(mesh, twin.tet());
-      if (visit(queue.back())) return StarKind::whole;
+      if (visit(queue.back(), twin)) return StarKind::whole;
     }
   }
   return StarKind::whole;
 }
 
-bool visit_nothing(HalfFace) {
+bool visit_nothing(HalfFace, HalfFace) {
   return false;
 }
 
@@ -79,25 +79,34 @@ std::span<const TetHandle> star(const TetMesh& mesh, VertexHandle v, Workspace& 
 }
 
 std::span<const VertexHandle> one_ring(const TetMesh& mesh, VertexHandle v, Workspace& workspace) {
-  collect_link(mesh, v, workspace, workspace.link_buffer);
-  workspace.ring_buffer.clear();
-  workspace.star_set.clear();
-  for (const HalfFace f : workspace.link_buffer) {
-    for (const VertexHandle w : mesh.vertices(f)) {
-      if (workspace.star_set.insert(w.index())) workspace.ring_buffer.push_back(w);
-    }
-  }
-  return workspace.ring_buffer;
+  constexpr std::uint32_t kIsVertex = 1u << 31;  // beyond the numbers of tets, in the same set
+  std::vector<VertexHandle>& ring = workspace.ring_buffer;
+  ring.clear();
+  const auto add = [&](VertexHandle w) {
+    if (workspace.star_set.insert(w.index() | kIsVertex)) ring.push_back(w);
+  };
+  // A tet shares a face with the one that the walk came from, and adds what lies opposite of it.
+  walk_star(mesh, v, workspace, kAnySize, workspace.link_buffer,
+            [&](HalfFace opposite, HalfFace entered) {
+              if (entered == HalfFace()) {
+                for (const VertexHandle w : mesh.vertices(opposite)) add(w);
+              } else {
+                add(mesh.vertices(entered.tet())[entered.face()]);
+              }
+              return false;
+            });
+  return ring;
 }
 
 std::optional<TetEdge> find_in_star(const TetMesh& mesh, VertexHandle a, VertexHandle b,
                                     Workspace& workspace) {
   std::optional<TetEdge> found;
   const auto search = [&](VertexHandle v, std::size_t most) {
-    return walk_star(mesh, v, workspace, most, workspace.search_buffer, [&](HalfFace opposite) {
-      found = edge_in(mesh, opposite.tet(), a, b);
-      return found.has_value();
-    });
+    return walk_star(mesh, v, workspace, most, workspace.search_buffer,
+                     [&](HalfFace opposite, HalfFace) {
+                       found = edge_in(mesh, opposite.tet(), a, b);
+                       return found.has_value();
+                     });
   };
   if (search(a, kMaxStar) != StarKind::too_large) return found;
   if (mesh.is_deleted(b) || !mesh.tet_of(b).is_valid()) return std::nullopt;

@@ -100,8 +100,8 @@ class AngleClasses {
   // Fine enough for one edge a cell, small enough for L1.
   static constexpr double kCellsPerUnit = 512;
 
-  static std::size_t cell_of(double key) {
-    return static_cast<std::size_t>((1 - key) * kCellsPerUnit);
+  static std::size_t cell_of(double key) {  // to 32 bits first, which is one instruction
+    return static_cast<std::uint32_t>(static_cast<std::int32_t>((1 - key) * kCellsPerUnit));
   }
 
   Goal goal_;
@@ -233,9 +233,13 @@ void count_angles(const TetMesh& mesh, const TetRows& rows, const AngleRows& ang
                   PartialStatistics& part) {
   const std::size_t size = rows.points.size();
   // Two tables, so that equal angles in a row need not wait for each other's count.
-  for (std::size_t e = 0; e < 6; ++e) {
-    const auto* keys = reinterpret_cast<const double*>(angles.keys[e].data());
-    for (std::size_t i = 0; i < size; ++i) ++counts[i % 2][classes.find(keys[i])];
+  for (std::size_t e = 0; e < 6; e += 2) {
+    const auto* some = reinterpret_cast<const double*>(angles.keys[e].data());
+    const auto* others = reinterpret_cast<const double*>(angles.keys[e + 1].data());
+    for (std::size_t i = 0; i < size; ++i) {
+      ++counts[0][classes.find(some[i])];
+      ++counts[1][classes.find(others[i])];
+    }
   }
   const auto* greatest = reinterpret_cast<const double*>(angles.greatest.data());
   const auto* smallest = reinterpret_cast<const double*>(angles.smallest.data());
@@ -395,39 +399,64 @@ std::string volume_text(const MeshStatistics& statistics, int digits) {
   return volume_text(scaled, statistics.scale, digits);
 }
 
-QualityIndicators quality_indicators(const TetMesh& mesh) {
-  struct Partial {
-    Quality worst = std::numeric_limits<Quality>::infinity();
-    std::size_t n_bad = 0;
-    std::size_t n_needles = 0;
-    CompensatedSum bad;
-    bool any() const { return n_bad + n_needles > 0; }
-  };
-  const auto parts = map_chunks<Partial>(mesh.tet_slots(), [&](std::size_t begin, std::size_t end) {
-    Partial part;
-    mesh.visit_below(kBadThreshold, begin, end, [&](TetHandle t) {
-      const Quality q = mesh.quality(t);
-      if (mesh.is_frozen(t)) return;
-      part.worst = std::min(part.worst, q);
-      ++(misses_goal(mesh, t) ? part.n_bad : part.n_needles);
-      part.bad.add(static_cast<double>(q));
-    });
-    for (std::size_t slot = begin; slot < end && !part.any(); ++slot) {
+namespace {
+
+/// Of the tets that are not frozen and below the threshold.
+struct TetsBelow {
+  Quality worst = std::numeric_limits<Quality>::infinity();
+  std::size_t n_bad = 0;
+  std::size_t n_needles = 0;
+  CompensatedSum sum;
+
+  void add(const TetMesh& mesh, TetHandle t) {
+    const Quality q = mesh.quality(t);
+    worst = std::min(worst, q);
+    ++(misses_goal(mesh, t) ? n_bad : n_needles);
+    sum.add(static_cast<double>(q));
+  }
+  void add(const TetsBelow& later) {
+    worst = std::min(worst, later.worst);
+    n_bad += later.n_bad;
+    n_needles += later.n_needles;
+    sum.add(later.sum);
+  }
+};
+
+/// Of the tets that are not frozen.
+Quality worst_of_all(const TetMesh& mesh) {
+  Quality worst = std::numeric_limits<Quality>::infinity();
+  const auto parts = map_chunks<Quality>(mesh.tet_slots(), [&](std::size_t begin, std::size_t end) {
+    Quality part = std::numeric_limits<Quality>::infinity();
+    for (std::size_t slot = begin; slot < end; ++slot) {
       const TetHandle t(static_cast<std::uint32_t>(slot));
-      if (!mesh.is_frozen(t)) part.worst = std::min(part.worst, mesh.quality(t));
+      if (mesh.quality(t) < part && !mesh.is_frozen(t)) part = mesh.quality(t);
     }
     return part;
   });
+  for (const Quality part : parts) worst = std::min(worst, part);
+  return worst;
+}
+
+}  // namespace
+
+QualityIndicators quality_indicators(const TetMesh& mesh) {
+  const auto parts =
+      map_chunks<TetsBelow>(mesh.tet_slots(), [&](std::size_t begin, std::size_t end) {
+        TetsBelow part;
+        mesh.visit_below(kBadThreshold, begin, end, [&](TetHandle t) {
+          if (!mesh.is_frozen(t)) part.add(mesh, t);
+        });
+        return part;
+      });
+  TetsBelow below;
+  for (const TetsBelow& part : parts) below.add(part);
+  const std::size_t count = below.n_bad + below.n_needles;
+  const Quality worst = count > 0 ? below.worst : worst_of_all(mesh);
   QualityIndicators result;
-  Partial sum;
-  for (const Partial& part : parts) {
-    sum.worst = std::min(sum.worst, part.worst);
-    sum.bad.add(part.bad);
-    result.n_bad += part.n_bad;
-    result.n_needles += part.n_needles;
-  }
-  if (std::isfinite(sum.worst)) result.q_worst = static_cast<double>(sum.worst);
-  result.q_aver = share(sum.bad.value(), result.n_bad + result.n_needles);
+  result.n_bad = below.n_bad;
+  result.n_needles = below.n_needles;
+  if (std::isfinite(worst)) result.q_worst = static_cast<double>(worst);
+  result.q_aver = share(below.sum.value(), count);
   return result;
 }
 

@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "kernel/chunks.h"
+#include "kernel/kept_faces.h"
 
 namespace tetmend {
 
@@ -42,7 +43,7 @@ std::uint64_t fingerprint(const TetMesh& mesh, const Counts& counts) {
         std::uint64_t sum = 0;
         for (std::size_t slot = begin; slot < end; ++slot) {
           const TetHandle t(static_cast<std::uint32_t>(slot));
-          if (mesh.is_deleted(t)) continue;
+          if (!may_have_kept_face(mesh, t) || mesh.is_deleted(t)) continue;
           for (unsigned f = 0; f < 4; ++f) sum += of_face(HalfFace(t, f));
         }
         return sum;

@@ -195,7 +195,7 @@ Figures measure_own(const Piece& gathered, const Parting& parting, std::uint32_t
     std::vector<std::uint32_t> numbers;
     TetMesh mesh = TetMesh::build(data, {.report = nullptr, .tet_numbers = &numbers});
     figures.statistics = compute_statistics(mesh, standard.goal());
-    figures.not_positive = count_not_positive(mesh);
+    figures.not_positive = count_not_positive(mesh, figures.statistics);
     count_protected(own, numbers, standard, mesh, figures);
   }
   figures.statistics.boundary_triangles = boundary;

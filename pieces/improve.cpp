@@ -176,7 +176,7 @@ void Improvement::measure_before(const TetMesh& mesh) {
   result_.before = compute_statistics(mesh, options_.goal);
   if (options_.rulers) result_.rulers_before = measure_rulers(mesh);
   surface_before_ = surface_fingerprint(mesh);
-  result_.not_positive_before = count_not_positive(mesh);
+  result_.not_positive_before = count_not_positive(mesh, result_.before);
   if (portrait_ != nullptr) portrait_->draw_before(mesh, result_.rulers_before);
   watcher_.watch(nullptr, quality_indicators(mesh));
   for (const std::string& text : deck_remarks(input_)) note(text);
@@ -292,7 +292,7 @@ void Improvement::measure_after(Joined& joined) {
   result_.after = compute_statistics(mesh, options_.goal);
   if (options_.rulers) result_.rulers_after = measure_rulers(mesh);
   result_.surface_fingerprint = result_.surface_fingerprint_before = surface_fingerprint(mesh);
-  result_.not_positive_after = count_not_positive(mesh);
+  result_.not_positive_after = count_not_positive(mesh, result_.after);
   std::vector<std::pair<TetHandle, Hindrance>> hindrances;
   if (options_.limit) result_.limit = find_surface_limit(mesh, options_.cancel, &hindrances);
   if (!result_.limit) hindrances.clear();

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "kernel/chunks.h"
+#include "kernel/kept_faces.h"
 #include "schedule/limit/moving_walls.h"
 #include "schedule/limit/wall_probe.h"
 
@@ -196,14 +197,26 @@ struct SharpWall {
   }
 };
 
+bool has_frozen_tets(const TetMesh& mesh) {
+  return count_in_chunks(mesh.tet_slots(), [&](std::size_t begin, std::size_t end) {
+           std::size_t count = 0;
+           for (std::size_t i = begin; i < end; ++i) {
+             count += mesh.is_frozen(TetHandle(static_cast<std::uint32_t>(i))) ? 1 : 0;
+           }
+           return count;
+         }) > 0;
+}
+
 /// The sharpest first, which bound most.
 std::vector<SharpWall> find_sharp_walls(const TetMesh& mesh) {
   constexpr double kSharp = 120 * kDegree;
+  const bool looks_at_all = has_frozen_tets(mesh);  // walls of others beside them
   const auto parts =
       map_chunks<std::vector<SharpWall>>(mesh.tet_slots(), [&](std::size_t begin, std::size_t end) {
         std::vector<SharpWall> part;
         for (std::size_t i = begin; i < end; ++i) {
           const TetHandle t(static_cast<std::uint32_t>(i));
+          if (!looks_at_all && !may_have_kept_face(mesh, t)) continue;
           if (mesh.is_deleted(t) || mesh.is_frozen(t)) continue;
           for (unsigned f = 0; f < 4; ++f) {
             const HalfFace face(t, f);

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // How far a run lets a mesh grow, and what lengths its new edges have.
+#include "face/growth.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -10,6 +12,10 @@
 #include <tetmend/improve.h>
 #include <tetmend/rulers.h>
 
+#include "kernel/formats/tet_mesh_io.h"
+#include "ops/registry.h"
+#include "schedule/run.h"
+#include "schedule/schedule.h"
 #include "tests/face/meshes.h"
 
 using namespace tetmend;
@@ -183,6 +189,25 @@ TEST_CASE("where the lengths of edges are kept, no new edge is much shorter or l
     CHECK(made > 500);
     CHECK(wrong == 0);
   }
+}
+
+TEST_CASE("lengths around vertices where nothing changed are taken over, and no others") {
+  TetMesh mesh = read_tet_mesh(asset("folded_sheet.mesh"));
+  const std::size_t vertices = mesh.vertex_count();
+  const face::LocalLengths before(mesh, vertices);
+  const Registry registry = Registry::builtin();
+  Run run(mesh, registry);
+  improve(run, Schedule::builtin("shell"), {});
+  std::size_t unchanged = 0;
+  for (std::uint32_t v = 0; v < mesh.vertex_slots(); ++v) {
+    const VertexHandle vertex(v);
+    unchanged += !mesh.is_deleted(vertex) && mesh.changed(vertex) == 0 ? 1 : 0;
+  }
+  REQUIRE(unchanged > 0);
+  REQUIRE(unchanged < vertices);
+  const face::LocalLengths anew(mesh, vertices);
+  CHECK(before.renewed(mesh) == anew);
+  CHECK_FALSE(before == anew);
 }
 
 TEST_CASE("the report says how the lengths of edges have changed") {

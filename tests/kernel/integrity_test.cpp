@@ -7,6 +7,7 @@
 
 #include <doctest/doctest.h>
 
+#include "kernel/statistics.h"
 #include "tests/support/zoo.h"
 
 namespace tetmend {
@@ -350,4 +351,17 @@ TEST_CASE("tets that are not positive are counted and no finding") {
   CHECK(count_not_positive(mesh) > 0);
   CHECK(count_not_positive(make_mesh(zoo_data("ball_60"))) == 0);
   CHECK(count_not_positive(make_mesh(zoo_data("flat_tet"))) == 1);
+}
+
+TEST_CASE("signs that the statistics of a mesh tell are those of exact arithmetic") {
+  for (const char* name : {"ball_60", "cube_3", "tangled_ball_60", "one_tet"}) {
+    CAPTURE(name);
+    const TetMesh mesh = make_mesh(zoo_data(name));
+    CHECK(count_not_positive(mesh, compute_statistics(mesh)) == count_not_positive(mesh));
+  }
+  MeshData data = one_tet();
+  data.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}};
+  const TetMesh flat = make_mesh(data);
+  REQUIRE(compute_statistics(flat).flat == 1);
+  CHECK(count_not_positive(flat, compute_statistics(flat)) == 1);
 }

@@ -2,6 +2,7 @@
 // The stable step against closed forms and against eigenvalues of the whole matrix.
 #include "kernel/solver_rulers.h"
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -52,6 +53,61 @@ double largest_step(const Matrices& of) {
   const Eigen::MatrixXd scaled = root.asDiagonal() * of.stiffness * root.asDiagonal();
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(scaled, Eigen::EigenvaluesOnly);
   return 2 / std::sqrt(solver.eigenvalues().maxCoeff());
+}
+
+/// By vertex: edges on the way to the surface.
+std::vector<double> count_depths(const TetMesh& mesh) {
+  std::vector<double> depths(mesh.vertex_slots(), 1e9);
+  for (std::uint32_t v = 0; v < depths.size(); ++v) {
+    if (mesh.is_boundary(VertexHandle(v))) depths[v] = 0;
+  }
+  for (bool changed = true; changed;) {
+    changed = false;
+    for (std::uint32_t slot = 0; slot < mesh.tet_slots(); ++slot) {
+      for (const VertexHandle v : mesh.vertices(TetHandle(slot))) {
+        for (const VertexHandle w : mesh.vertices(TetHandle(slot))) {
+          if (depths[w.index()] + 1 >= depths[v.index()]) continue;
+          depths[v.index()] = depths[w.index()] + 1;
+          changed = true;
+        }
+      }
+    }
+  }
+  return depths;
+}
+
+/// The estimate from its definition: 8 (g^2 / lambda)^(3/8).
+double estimate_by_definition(const TetMesh& mesh) {
+  const std::vector<double> depths = count_depths(mesh);
+  const P1Diagonals diagonals = p1_diagonals(mesh);
+  std::vector<double> scale(depths.size()), rows(depths.size());
+  double squares = 0, energy = 0, largest = 0;
+  for (std::size_t v = 0; v < depths.size(); ++v) {
+    if (depths[v] > 0) scale[v] = 1 / std::sqrt(diagonals.stiffness[v]);
+    squares += diagonals.stiffness[v] * depths[v] * depths[v];
+  }
+  for (std::uint32_t slot = 0; slot < mesh.tet_slots(); ++slot) {
+    const TetVertices& v = mesh.vertices(TetHandle(slot));
+    Eigen::Matrix4d coordinates;
+    Eigen::Vector4d depth;
+    for (std::size_t i = 0; i < 4; ++i) {
+      coordinates.row(static_cast<Eigen::Index>(i)) << mesh.point(v[i]).transpose(), 1;
+      depth[static_cast<Eigen::Index>(i)] = depths[v[i].index()];
+    }
+    const Eigen::Matrix<double, 3, 4> gradients = coordinates.inverse().topRows<3>();
+    const Eigen::Matrix4d local =
+        std::abs(coordinates.determinant()) / 6 * gradients.transpose() * gradients;
+    energy += depth.dot(local * depth);
+    for (std::size_t i = 0; i < 4; ++i) {
+      for (std::size_t j = 0; j < 4; ++j) {
+        rows[v[i].index()] +=
+            std::abs(local(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j))) *
+            scale[v[j].index()];
+      }
+    }
+  }
+  for (std::size_t v = 0; v < rows.size(); ++v) largest = std::max(largest, scale[v] * rows[v]);
+  return 8 * std::pow(largest * largest * squares / energy, 3.0 / 8);
 }
 
 /// Of conjugate gradients with Jacobi's preconditioner to 1e-8, load 1, surface fixed.
@@ -154,6 +210,38 @@ TEST_CASE(
   const TetMesh tangled(test::tangled_ball(60, 3));
   CHECK(estimate_cg_steps(tangled, p1_diagonals(tangled)) == 0);
   CHECK(estimate_cg_steps(TetMesh(), p1_diagonals(TetMesh())) == 0);
+}
+
+TEST_CASE("the estimate of CG steps is what its definition gives, however deep the mesh is") {
+  for (const int cells : {2, 3, 6, 11}) {
+    CAPTURE(cells);
+    const TetMesh mesh(test::kuhn_cube(cells, 0.2, 7));
+    CHECK(estimate_cg_steps(mesh, p1_diagonals(mesh)) ==
+          doctest::Approx(estimate_by_definition(mesh)).epsilon(1e-9));
+  }
+}
+
+TEST_CASE("sums at vertices are the same, bit for bit, for every number of threads") {
+  const TetMesh mesh(test::kuhn_cube(26, 0.3, 7));  // more than one range of vertices
+  const P1Diagonals sums = on_threads(1, [&] { return p1_diagonals(mesh); });
+  const double steps = on_threads(1, [&] { return estimate_cg_steps(mesh, sums); });
+  CHECK(steps > 0);
+  for (const int threads : {2, 5}) {
+    const P1Diagonals again = on_threads(threads, [&] { return p1_diagonals(mesh); });
+    CHECK(again.mass == sums.mass);
+    CHECK(again.stiffness == sums.stiffness);
+    CHECK(again.are_positive);
+    CHECK(on_threads(threads, [&] { return estimate_cg_steps(mesh, again); }) == steps);
+  }
+  // In the order of the tets, of which a vertex has the mass of each in turn.
+  std::vector<double> mass(mesh.vertex_slots());
+  for (std::uint32_t slot = 0; slot < mesh.tet_slots(); ++slot) {
+    const TetVertices& v = mesh.vertices(TetHandle(slot));
+    const double share =
+        p1_diagonal(mesh.point(v[0]), mesh.point(v[1]), mesh.point(v[2]), mesh.point(v[3])).mass;
+    for (const VertexHandle w : v) mass[w.index()] += share;
+  }
+  CHECK(mass == sums.mass);
 }
 
 TEST_CASE("the step is the same, bit for bit, for every number of threads") {

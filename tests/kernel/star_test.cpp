@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <set>
+#include <vector>
 
 #include <doctest/doctest.h>
 
@@ -51,6 +52,26 @@ TEST_CASE("star, link and one-ring of every vertex are what a search of the whol
       const auto ring = one_ring(mesh, v, workspace);
       CHECK(ring.size() == others.size());
       CHECK(std::set<VertexHandle>(ring.begin(), ring.end()) == others);
+    }
+  }
+}
+
+TEST_CASE("a ring lists its vertices as the faces of the link bring them") {
+  for (const char* name : {"ball_60", "two_regions", "tangled_ball_60"}) {
+    CAPTURE(name);
+    const TetMesh mesh = make_mesh(zoo_data(name));
+    Workspace workspace(mesh);
+    for (const VertexHandle v : live_vertices(mesh)) {
+      std::vector<VertexHandle> expected;
+      for (const HalfFace f : link(mesh, v, workspace)) {
+        for (const VertexHandle w : mesh.vertices(f)) {
+          if (std::find(expected.begin(), expected.end(), w) == expected.end()) {
+            expected.push_back(w);
+          }
+        }
+      }
+      const auto ring = one_ring(mesh, v, workspace);
+      CHECK(std::vector<VertexHandle>(ring.begin(), ring.end()) == expected);
     }
   }
 }
