@@ -18,6 +18,7 @@
 #include "contract/inspector.h"
 #include "face/advice.h"
 #include "face/arena.h"
+#include "face/bounds_of_run.h"
 #include "face/carry.h"
 #include "face/constraints.h"
 #include "face/curving.h"
@@ -235,11 +236,8 @@ void Improvement::build_mesh(MeshData& data, Mending mending) {
   result_.protected_bad_tets = part.bad_tets;
   result_.layer_tets = part.layer_tets;
   result_.layer_bad_tets = part.layer_bad_tets;
-  Bounds bounds = Bounds::of(
-      mesh_, plan_.purpose.keeps_step ? Bounds::Holding::solver : Bounds::Holding::angles);
-  // A mesh with inverted tets has no step, and what its angles are says little.
-  result_.holds_solver = plan_.purpose.keeps_step && !bounds.are_of_inverted();
-  if (!result_.holds_solver) bounds = Bounds::of(mesh_);
+  auto [bounds, holds_solver] = face::bounds_of_run(mesh_, plan_.purpose);
+  result_.holds_solver = holds_solver;
   if (plan_.sizes.are_wanted()) {  // of another mesh than the one that is asked for
     bounds = Bounds();
     result_.holds_solver = false;

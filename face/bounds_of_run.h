@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+// What no change of a run may make worse.
+#pragma once
+
+#include "face/purpose.h"
+#include "kernel/bounds.h"
+#include "kernel/tet_mesh.h"
+
+namespace tetmend::face {
+
+struct BoundsOfRun {
+  Bounds bounds;
+  bool holds_solver = false;  ///< the stable step and the largest angle are held, too
+};
+
+/// A mesh with inverted tets has no step, and what its angles are says little. Cost: linear.
+inline BoundsOfRun bounds_of_run(const TetMesh& mesh, const Purpose& purpose) {
+  if (purpose.keeps_step) {
+    const Bounds of_solver = Bounds::of(mesh, Bounds::Holding::solver);
+    if (!of_solver.are_of_inverted()) return {of_solver, true};
+  }
+  return {Bounds::of(mesh), false};
+}
+
+}  // namespace tetmend::face
