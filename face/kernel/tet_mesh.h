@@ -180,6 +180,12 @@ class TETMEND_API TetMesh {
   bool is_boundary(VertexHandle v) const {
     return is_known(v, "is_boundary") && mesh_.is_boundary(v);
   }
+  /// Coordinates by slot, where they lie: valid until anything changes the mesh. Empty where the mesh
+  /// is worked with in other lengths than those of its Mesh, as one of far from ordinary size is.
+  std::span<const Point> point_view() const {
+    if (!mesh_.scale().is_one() || mesh_.vertex_slots() == 0) return {};
+    return {&mesh_.point(VertexHandle(0)), mesh_.vertex_slots()};
+  }
   /// On the boundary, on a constraint, required by the Mesh, or locked: neither moves nor vanishes.
   bool is_fixed(VertexHandle v) const {
     return is_known(v, "is_fixed") && (mesh_.is_fixed(v) || has_lock(v));
