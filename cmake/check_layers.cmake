@@ -41,7 +41,7 @@ set(below_apps ${rooms})
 set(public_of_kernel api curved data error goal language rulers sizes statistics)
 set(public_of_trace verdict)
 set(public_of_schedule catalogue limit)
-set(public_of_face check improve io measure mesh option_text session trace)
+set(public_of_face check improve io measure mesh option_text trace)
 set(public_of_pieces distributed)
 set(public_of_bindings petsc tetmend)
 

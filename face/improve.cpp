@@ -18,6 +18,7 @@
 #include "contract/inspector.h"
 #include "face/advice.h"
 #include "face/arena.h"
+#include "face/array_values.h"
 #include "face/bounds_of_run.h"
 #include "face/carry.h"
 #include "face/constraints.h"
@@ -291,6 +292,8 @@ void Improvement::run_schedule(std::size_t passes, double seconds) {
   Run run(mesh_, plan_.registry);
   if (const auto most = plan_.growth.most(result_.before.tets)) run.set_most_tets(*most);
   run.set_listener(&watcher_);
+  const face::ArrayValues values(input_);
+  run.set_values(&values);
   run.set_trace(follower_ != nullptr ? follower_->follow(mesh_) : trace_.get());
   contract::Inspector inspector;
   if (options_.check_operators) run.set_inspector(&inspector);

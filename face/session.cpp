@@ -9,10 +9,11 @@
 #include <utility>
 
 #include <fmt/format.h>
-#include <tetmend/session.h>
+#include <tetmend/improve.h>
 
 #include "contract/inspector.h"
 #include "face/arena.h"
+#include "face/array_values.h"
 #include "face/bounds_of_run.h"
 #include "face/carry.h"
 #include "face/constraints.h"
@@ -101,6 +102,7 @@ class Improver::Session {
   std::size_t mark(std::size_t attempts);
   void hold_vertices();
   void bound();
+  MeshData data_at_work() const;
   void run_passes(std::size_t attempts, Step& step);
   void note_tried(bool all_were);
   void end_step(Step& step);
@@ -180,8 +182,8 @@ bool Improver::Session::move(std::span<const std::array<double, 3>> points) {
   });
 }
 
-/// Dates the vertices of tets that have got bad, or worse: of so many as there are likely attempts for,
-/// those first that had fewer turns, and the worst of these. Returns the number of all.
+/// Dates the vertices of tets that have got bad, or worse: of so many as there are likely attempts
+/// for, those first that had fewer turns, and the worst of these. Returns the number of all.
 std::size_t Improver::Session::mark(std::size_t attempts) {
   std::vector<TetHandle> bad;
   mesh_.visit_below(kBadThreshold, 0, mesh_.tet_slots(), [&](TetHandle t) {
@@ -220,6 +222,17 @@ void Improver::Session::bound() {
   if (!plan_.sizes.are_wanted()) mesh_.set_bounds(face::bounds_of_run(mesh_, plan_.purpose).bounds);
 }
 
+/// What schedules may select by.
+MeshData Improver::Session::data_at_work() const {
+  MeshData data;
+  if (!held_ || held_->tet_data.empty() || is_plain()) return data;
+  data.points = held_->points;
+  mesh_.scale().to_work(data.points);
+  data.tets = held_->tets;
+  data.tet_data = held_->tet_data;
+  return data;
+}
+
 void Improver::Session::run_passes(std::size_t attempts, Step& step) {
   face::Watcher watcher(options_);
   Run run(mesh_, plan_.registry);
@@ -227,6 +240,9 @@ void Improver::Session::run_passes(std::size_t attempts, Step& step) {
   if (!options_.size_at) run.set_first_date(kNow);
   run.set_most_attempts(attempts);
   run.set_listener(&watcher);
+  const MeshData data = data_at_work();
+  const face::ArrayValues values(data);
+  run.set_values(&values);
   contract::Inspector inspector;
   if (options_.check_operators) run.set_inspector(&inspector);
   watcher.watch(&run, step.before);

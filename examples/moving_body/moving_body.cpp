@@ -28,7 +28,7 @@
 #include <Eigen/SparseCholesky>
 #include <fmt/format.h>
 #include <tetmend/measure.h>
-#include <tetmend/session.h>
+#include <tetmend/improve.h>
 
 using Point = Eigen::Vector3d;
 using Points = std::vector<std::array<double, 3>>;

@@ -12,7 +12,6 @@
 #include <tetmend/catalogue.h>
 #include <tetmend/improve.h>
 #include <tetmend/measure.h>
-#include <tetmend/session.h>
 
 namespace {
 
