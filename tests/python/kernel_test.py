@@ -238,6 +238,28 @@ def test_try_only_shows_a_tree_and_leaves_the_mesh_as_it_was(mesh):
     assert mesh.attempt(done.operator_name, done.target, max_level=5).accepted and state(mesh) != before
 
 
+def test_schedules_and_scripts_work_on_the_mesh_with_its_own_operators(mesh, materials):
+    called = []
+
+    @mesh.operator("edge", judge=fewer)
+    def looks(look, a, b):
+        called.append((a, b))
+
+    passes = mesh.schedule("smooth{} local_reconnection{} apply('looks')", threads=2)
+    assert [each.name for each in passes] == ["smooth", "local_reconnection", "looks"]
+    assert passes[2].attempts == len(called) and passes[1].accepted > 0 and mesh.check() == 0
+    other, by_two = tetmend.TetMesh(materials), tetmend.TetMesh(materials)
+    assert other.schedule("shell", max_rounds=1)[-1].n_bad <= np.sum(tetmend.TetMesh(materials).quality() < 1)
+    by_two.schedule("shell", threads=2, max_rounds=1)
+    assert state(other) == state(by_two)
+    with pytest.raises(tetmend.Error, match="script:1"):
+        mesh.schedule("nothing{}")
+    points = mesh.points
+    with pytest.raises(BufferError):
+        mesh.schedule("smooth{}")
+    assert points is not None
+
+
 def test_smoothing_in_python_keeps_labels_and_comes_back_as_a_mesh(mesh, materials):
     for v in range(len(materials.points)):
         if mesh.is_fixed(v):

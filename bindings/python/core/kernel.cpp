@@ -13,7 +13,7 @@
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
-#include <tetmend/operators.h>
+#include <tetmend/schedule.h>
 
 #include "bindings/python/core/arrays.h"
 #include "bindings/python/core/mesh.h"
@@ -368,6 +368,22 @@ void add_operator(KernelMesh& self, const std::string& name, const std::string& 
               "'");
 }
 
+// --- passes
+
+/// What each pass of a script did: (name, attempts, accepted, n_bad afterwards).
+py::list schedule(KernelMesh& self, const std::string& name_or_script,
+                  const std::vector<std::pair<std::string, std::string>>& settings, int threads) {
+  self.check_no_view();
+  const bool has_own = !self.operators.all().empty();
+  kernel::Run run(self.mesh,
+                  {.threads = threads, .operators = has_own ? &self.operators : nullptr});
+  py::list passes;
+  for (const kernel::PassDone& done : run.schedule(name_or_script, settings)) {
+    passes.append(py::make_tuple(done.name, done.attempts, done.accepted, done.after.n_bad));
+  }
+  return passes;
+}
+
 // --- edits
 
 /// One that is open, by how many are around it and itself.
@@ -550,6 +566,7 @@ void add_kernel(py::module_& module) {
              return PythonEdit{self, mesh, mesh.begin()};
            })
       .def("attempt", &attempt)
+      .def("schedule", &schedule)
       .def("add_operator", &add_operator);
   add_walks(made);
 }

@@ -33,6 +33,15 @@ class Ring(NamedTuple):
     closed: bool
 
 
+class PassDone(NamedTuple):
+    """What a pass did, and how many bad tets there were then."""
+
+    name: str
+    attempts: int
+    accepted: int
+    n_bad: int
+
+
 _COLOURS = {"accepted": "#2a7a3b", "no improvement": "#b36b00", "not applicable": "#777777"}
 
 
@@ -446,7 +455,7 @@ class TetMesh:
     def apply(self, operator: str, *, below: float = 1, sweeps: int = 1, **settings: float) -> dict[str, int]:
         """Tries an operator in and around each tet with a quality below a limit, the worst first. Returns the number of attempts by verdict.
 
-        In one thread: a loop of attempt(). For passes of whole schedules there is improve().
+        In one thread: a loop of attempt(). See schedule() for passes.
         """
         kind = self._operators[operator][0] if operator in self._operators else _target_of(operator)
         picks = {"vertex": [(i,) for i in range(4)], "edge": [(i, j) for i in range(4) for j in range(i + 1, 4)],
@@ -467,6 +476,17 @@ class TetMesh:
             if count.get("accepted", 0) == accepted:
                 break
         return count
+
+    def schedule(self, name_or_script: str, *, threads: int = 1, **settings: object) -> list[PassDone]:
+        """Makes the passes of a schedule, by its name, or of a script; operators of this mesh may be among them::
+
+            mesh.schedule("local_reconnection{} smooth{} apply('my_flip')", threads=4)
+
+        Settings are the parameters of the schedule. The result is the same for every number of threads; an operator in Python
+        is called by one of them.
+        """
+        texts = [(name, str(value).lower() if isinstance(value, bool) else str(value)) for name, value in settings.items()]
+        return [PassDone(*each) for each in self._core.schedule(name_or_script, texts, threads)]
 
     def collect_garbage(self) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
         """Gives vertices and tets new numbers without gaps. Returns those of all old ones, -1 for what is gone."""
