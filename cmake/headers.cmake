@@ -1,7 +1,8 @@
-# What users see that is made of headers of ours, each in one file: <tetmend/plugin.h>, <tetmend/kernel.h>, <tetmend/operators.h>.
+# What users see that is made of headers of ours, each in one file: <tetmend/plugin.h>, <tetmend/kernel.h>, <tetmend/operators.h>,
+# <tetmend/schedule.h>.
 set(TETMEND_MADE_HEADERS "")
 file(GLOB private_headers CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/kernel/*.h ${PROJECT_SOURCE_DIR}/trace/*.h
-     ${PROJECT_SOURCE_DIR}/ops/*.h ${PROJECT_SOURCE_DIR}/face/kernel/*.h)
+     ${PROJECT_SOURCE_DIR}/ops/*.h ${PROJECT_SOURCE_DIR}/schedule/*.h ${PROJECT_SOURCE_DIR}/face/kernel/*.h)
 
 # tetmend_made_header(NAME PURPOSE ROOMS... HEADERS...)
 function(tetmend_made_header name purpose)
@@ -21,9 +22,11 @@ tetmend_made_header(kernel.h "Meshes of tets for programs: loops, walks, propert
   ROOMS kernel face/kernel HEADERS face/kernel/transaction.h face/kernel/extract.h)
 tetmend_made_header(operators.h "Attempts of operators, and operators of a program, on meshes of <tetmend/kernel.h> (docs/kernel.md)."
   ROOMS kernel trace ops face/kernel HEADERS face/kernel/transaction.h face/kernel/extract.h face/kernel/own_operators.h)
+tetmend_made_header(schedule.h "Passes and schedules over meshes of <tetmend/kernel.h> (docs/kernel.md)."
+  ROOMS kernel trace ops schedule face/kernel HEADERS face/kernel/transaction.h face/kernel/extract.h face/kernel/run.h)
 add_custom_target(tetmend_made_headers ALL DEPENDS ${TETMEND_MADE_HEADERS})
 
-# tetmend::kernel: what a program needs besides the library for the two of them.
+# tetmend::kernel: what a program needs besides the library for the three of them.
 add_library(tetmend_for_kernel INTERFACE)
 add_library(tetmend::kernel ALIAS tetmend_for_kernel)
 add_dependencies(tetmend_for_kernel tetmend_made_headers)

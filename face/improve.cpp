@@ -19,6 +19,8 @@
 #include "contract/inspector.h"
 #include "face/advice.h"
 #include "face/arena.h"
+#include "face/array_values.h"
+#include "face/bounds_of_run.h"
 #include "face/carry.h"
 #include "face/constraints.h"
 #include "face/curving.h"
@@ -242,10 +244,9 @@ void Improvement::build_mesh(MeshData& data, Mending mending) {
   result_.layer_tets = part.layer_tets;
   result_.layer_bad_tets = part.layer_bad_tets;
   if (plan_.purpose.keeps_step) diagonals_ = p1_diagonals(mesh_);
-  Bounds bounds = diagonals_ ? Bounds::of(mesh_, *diagonals_) : Bounds::of(mesh_);
-  // A mesh with inverted tets has no step, and what its angles are says little.
-  result_.holds_solver = plan_.purpose.keeps_step && !bounds.are_of_inverted();
-  if (!result_.holds_solver) bounds = Bounds::of(mesh_);
+  auto [bounds, holds_solver] =
+      face::bounds_of_run(mesh_, diagonals_ ? &*diagonals_ : nullptr);
+  result_.holds_solver = holds_solver;
   if (plan_.sizes.are_wanted()) {  // of another mesh than the one that is asked for
     bounds = Bounds();
     result_.holds_solver = false;
@@ -300,6 +301,8 @@ void Improvement::run_schedule(std::size_t passes, double seconds) {
   Run run(mesh_, plan_.registry);
   if (const auto most = plan_.growth.most(result_.before.tets)) run.set_most_tets(*most);
   run.set_listener(&watcher_);
+  const face::ArrayValues values(input_);
+  run.set_values(&values);
   run.set_trace(follower_ != nullptr ? follower_->follow(mesh_) : trace_.get());
   contract::Inspector inspector;
   if (options_.check_operators) run.set_inspector(&inspector);

@@ -44,6 +44,8 @@ class MeshBuilder {
   }
   /// See mesh_patch.h.
   class Patch;
+  /// See mesh_renewal.h.
+  class Renewal;
 
   /// For what is known of a new mesh from before: what TetMesh::changed() says until something
   /// changes there.

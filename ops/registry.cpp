@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -48,7 +49,6 @@ void check(const OperatorInfo& info) {
   if (!is_name(info.name)) complain("the name is not made of a-z, 0-9 and _");
   if (info.target > TargetKind::vertex) complain("there is no such kind of target");
   if (info.help.empty()) complain("there is no help");
-  if (info.make == nullptr) complain("there is no function that makes it");
   for (std::size_t i = 0; i < info.parameters.size(); ++i) {
     const ParameterSpec& spec = info.parameters[i];
     if (const auto about = complaint_about(spec); !about.empty()) {
@@ -65,6 +65,17 @@ void check(const OperatorInfo& info) {
 }  // namespace
 
 void Registry::add(const OperatorInfo& info, std::string_view origin) {
+  if (info.make == nullptr) {
+    throw Error(fmt::format("operator '{}': there is no function that makes it", info.name));
+  }
+  add(info, origin, info.make);
+}
+
+void Registry::add(const OperatorInfo& info, Maker make) {
+  add(info, {}, std::move(make));
+}
+
+void Registry::add(const OperatorInfo& info, std::string_view origin, Maker make) {
   check(info);
   for (std::size_t i = 0; i < infos_.size(); ++i) {
     if (infos_[i]->name != info.name) continue;
@@ -76,6 +87,7 @@ void Registry::add(const OperatorInfo& info, std::string_view origin) {
   }
   infos_.push_back(&info);
   origins_.emplace_back(origin);
+  makers_.push_back(std::move(make));
 }
 
 std::size_t Registry::index_of(std::string_view name) const {
@@ -102,7 +114,7 @@ std::unique_ptr<Operator> Registry::make(std::string_view name,
   const OperatorInfo& info = *infos_[i];
   const ParameterValues values(info.name, info.parameters, settings);
   if (origins_[i].empty()) {
-    std::unique_ptr<Operator> made = info.make(values);
+    std::unique_ptr<Operator> made = makers_[i](values);
     made->settings_ = values.describe();
     return made;
   }
@@ -111,7 +123,7 @@ std::unique_ptr<Operator> Registry::make(std::string_view name,
   };
   std::unique_ptr<Operator> made;
   try {
-    made = info.make(values);
+    made = makers_[i](values);
   } catch (const std::exception& error) {
     throw complain(error.what());
   } catch (...) {

@@ -2,6 +2,7 @@
 // The operators that exist, by name. Passed down; there is no global registry.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
@@ -24,6 +25,11 @@ class TETMEND_API Registry {
   /// make no sense. `info` must outlive the registry.
   void add(const OperatorInfo& info, std::string_view origin = {});
 
+  /// For operators that one function makes, with what it knows.
+  using Maker = std::function<std::unique_ptr<Operator>(const ParameterValues&)>;
+  /// The same, of the program itself; `info.make` is not asked.
+  void add(const OperatorInfo& info, Maker make);
+
   /// In the order of registration.
   std::span<const OperatorInfo* const> operators() const { return infos_; }
 
@@ -38,10 +44,12 @@ class TETMEND_API Registry {
                                  const ParameterSettings& settings = {}) const;
 
  private:
+  void add(const OperatorInfo& info, std::string_view origin, Maker make);
   std::size_t index_of(std::string_view name) const;
 
   std::vector<const OperatorInfo*> infos_;
   std::vector<std::string> origins_;
+  std::vector<Maker> makers_;
 };
 
 }  // namespace tetmend

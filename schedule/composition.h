@@ -7,49 +7,11 @@
 #include <vector>
 
 #include "ops/registry.h"
+#include "schedule/pass_options.h"
 #include "schedule/queue.h"
 #include "schedule/worker.h"
 
 namespace tetmend {
-
-/// In which order the edges of a tet are tried.
-enum class EdgeOrder {
-  sine,     ///< lowest sine of the dihedral angle first: the edges to get rid of
-  angle,    ///< largest dihedral angle first: those of them that go most easily
-  longest,  ///< longest first: the edges to split
-  shortest
-};
-
-/// One operator, or several that are tried one after the other.
-struct Composition {
-  enum class Kind {
-    one,       ///< the operator
-    first_of,  ///< the parts in turn, until an attempt is accepted
-    all_of,    ///< the parts in turn, until the tet is gone
-    /// The first part, an operator, opens: it may make things worse. The others follow, each on the
-    /// bad tets among all that has changed, the worst first. What came of it stays only if it is
-    /// better as a whole; with a theta_max, if the largest angles are.
-    sequence
-  };
-  Kind kind = Kind::one;
-  std::string operator_name = {};  ///< of Kind::one
-  ParameterSettings settings = {};
-  EdgeOrder order = EdgeOrder::sine;
-  unsigned most_edges = 6;        ///< of a tet that are tried, the first in that order
-  double desperate = kDesperate;  ///< of a sequence: below this worst quality, a gain of 0.002
-                                  ///< pays for one more bad tet
-  /// Of a sequence, degrees. Below 180 it is tried on tets with a larger dihedral angle only, what
-  /// follows works on such tets as well, and it stays if the sine of the largest angle of all that
-  /// has changed gains 0.002 on the tet's, and as much for each more bad tet, and the worst tet
-  /// gets no worse.
-  double theta_max = 180;
-  std::vector<Composition> parts = {};  ///< of the other kinds
-
-  /// As a script writes it, settings left out: first_of(edge_removal, flip_2_3).
-  std::string name() const;
-  /// Equal for compositions that do the same.
-  std::string describe() const;
-};
 
 /// A composition made ready. An operator, also one that opens a sequence, is tried on the tet
 /// itself, or on its edges, faces or movable vertices, each that changed since the last time.

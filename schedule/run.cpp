@@ -241,9 +241,12 @@ bool PassScope::proceed(std::size_t n) {
 }
 
 void PassScope::take_verdicts(Worker& worker) {
+  std::size_t attempts = 0;
   for (std::size_t i = 0; i < kVerdictCount; ++i) {
+    attempts += worker.verdicts[i];
     record_.verdicts[i] += std::exchange(worker.verdicts[i], 0);
   }
+  run_.attempts_left_ -= std::min(attempts, run_.attempts_left_);
 }
 
 void PassScope::note_blocks(std::span<const double> seconds) {

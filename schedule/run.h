@@ -7,6 +7,7 @@
 #include <chrono>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <mutex>
 #include <span>
@@ -89,6 +90,9 @@ class Run {
     return share_.part == share_.whole ? selection : selection.of_part(share_.part, share_.whole);
   }
   void set_listener(ProgressListener* listener) { listener_ = listener; }
+  /// What selections may name besides properties and measures. Null: nothing.
+  void set_values(const PlacedValues* values) { values_ = values; }
+  const PlacedValues* values() const { return values_; }
   /// The run stops at the next consistent state once the flag is true.
   void set_cancel_flag(const std::atomic<bool>* flag) { cancel_ = flag; }
   /// The same, now. May be called by any thread.
@@ -97,8 +101,15 @@ class Run {
   void stop_after(std::size_t passes) { most_passes_ = passes; }
   /// The run stops at the next consistent state that many seconds from now.
   void set_time_limit(double seconds);
-  /// True once the run is to stop, for either reason.
-  bool cancelled() const { return flag_is_set() || out_of_time(); }
+  /// The run stops at the next consistent state when it has made about that many attempts more, the
+  /// same ones for every number of threads: the tet that is just tried may take a few over.
+  void set_most_attempts(std::size_t attempts) { attempts_left_ = attempts; }
+  std::size_t attempts_left() const { return attempts_left_; }
+  /// Something was left untried because attempts ran out, there at least.
+  bool has_left_off() const { return has_left_off_; }
+  void note_left_off() { has_left_off_ = true; }
+  /// True once the run is to stop, for any of these reasons.
+  bool cancelled() const { return attempts_left_ == 0 || flag_is_set() || out_of_time(); }
   /// True once the time limit was met, as far as anyone has looked at the clock.
   bool out_of_time() const { return out_of_time_.load(std::memory_order_relaxed); }
   /// The same, by a look at the clock.
@@ -165,6 +176,7 @@ class Run {
   std::size_t block_count_ = 1;
   std::array<ShiftedBlocks, kPartitions> partitions_;
   ProgressListener* listener_ = nullptr;
+  const PlacedValues* values_ = nullptr;
   std::mutex listener_busy_;
   bool flag_is_set() const {
     return stopped_.load(std::memory_order_relaxed) ||
@@ -175,6 +187,8 @@ class Run {
     std::uint64_t part = 1, whole = 1;
   };
   Share share_;
+  std::size_t attempts_left_ = std::numeric_limits<std::size_t>::max();
+  bool has_left_off_ = false;
   std::size_t most_passes_ = std::numeric_limits<std::size_t>::max();
   std::atomic<bool> stopped_ = false;
   const std::atomic<bool>* cancel_ = nullptr;
@@ -219,6 +233,8 @@ class PassScope {
   /// Indicators of the mesh, which between passes must not be changed. Measured when something was
   /// tried since the last time; timed as a scan.
   const QualityIndicators& indicators();
+  /// See Run::set_values().
+  const PlacedValues* values() const { return run_.values(); }
   /// Attempts so far that were accepted.
   std::size_t accepted() const { return record_.accepted(); }
   /// That many items will be tried.

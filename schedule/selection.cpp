@@ -45,7 +45,8 @@ std::string Selection::describe() const {
   return text;
 }
 
-SelectionTest::SelectionTest(const TetMesh& mesh, const Selection& selection)
+SelectionTest::SelectionTest(const TetMesh& mesh, const Selection& selection,
+                             const PlacedValues* values)
     : mesh_(mesh),
       selection_(selection),
       plain_(selection.labels.empty() && !selection.box && !selection.value &&
@@ -54,7 +55,16 @@ SelectionTest::SelectionTest(const TetMesh& mesh, const Selection& selection)
   const std::string& name = selection.value->name;
   real_ = mesh.tet_properties().find<double>(name);
   if (!real_.is_valid()) whole_ = mesh.tet_properties().find<int>(name);
-  if (!real_.is_valid() && !whole_.is_valid()) measure_ = &find_quality_measure(name);
+  if (real_.is_valid() || whole_.is_valid()) return;
+  if (values != nullptr) placed_ = values->find(name);
+  if (placed_) return;
+  try {
+    measure_ = &find_quality_measure(name);
+  } catch (const Error& error) {
+    const auto arrays = values != nullptr ? values->names() : std::vector<std::string>();
+    if (arrays.empty()) throw;
+    throw Error(fmt::format("{}; arrays of the tets: {}", error.what(), fmt::join(arrays, ", ")));
+  }
 }
 
 Quality SelectionTest::limit() const {
@@ -93,6 +103,10 @@ double SelectionTest::value_of(TetHandle t) const {
   if (real_.is_valid()) return mesh_.tet_properties().at(real_, t);
   if (whole_.is_valid()) return mesh_.tet_properties().at(whole_, t);
   const TetVertices& v = mesh_.vertices(t);
+  if (placed_) {
+    return placed_((mesh_.point(v[0]) + mesh_.point(v[1]) + mesh_.point(v[2]) + mesh_.point(v[3])) /
+                   4);
+  }
   return measure_->evaluate(mesh_.point(v[0]), mesh_.point(v[1]), mesh_.point(v[2]),
                             mesh_.point(v[3]));
 }

@@ -4,9 +4,11 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <Eigen/Geometry>
@@ -15,8 +17,20 @@
 
 namespace tetmend {
 
-/// Tets of a value from low to high. The value is the tet property (double or int) of that name, or
-/// the quality measure of that name.
+/// What a mesh had for its tets when a run began, by name and place.
+class PlacedValues {
+ public:
+  using At = std::function<double(const Point&)>;
+
+  virtual ~PlacedValues() = default;
+  /// In lengths that are worked with; may be called by several threads. Empty: there are none of that
+  /// name.
+  virtual At find(std::string_view name) const = 0;
+  virtual std::vector<std::string> names() const = 0;
+};
+
+/// Tets of a value from low to high. The value is the tet property (double or int) of that name, what
+/// the mesh had of that name at the centroid of the tet, or the quality measure of that name.
 struct ValueRange {
   std::string name;
   double low = -std::numeric_limits<double>::infinity();
@@ -49,8 +63,10 @@ struct Selection {
 /// A selection bound to a mesh. Both must outlive it.
 class SelectionTest {
  public:
-  /// @throws Error when neither property nor measure has the name, with the valid ones.
-  SelectionTest(const TetMesh& mesh, const Selection& selection);
+  /// @param values null: there are none
+  /// @throws Error when neither property nor value nor measure has the name, with the valid ones.
+  SelectionTest(const TetMesh& mesh, const Selection& selection,
+                const PlacedValues* values = nullptr);
 
   /// Tets of this quality or higher are out of the question.
   Quality limit() const;
@@ -68,6 +84,7 @@ class SelectionTest {
   bool plain_;
   PropertyHandle<TetHandle, double> real_;
   PropertyHandle<TetHandle, int> whole_;
+  PlacedValues::At placed_;
   const QualityMeasure* measure_ = nullptr;
 };
 

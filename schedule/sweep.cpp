@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <limits>
 #include <numeric>
 
 #include "kernel/first_failure.h"
@@ -96,6 +97,19 @@ std::vector<std::size_t> share_growth(Run& run, std::span<const BlockLoad> loads
   return shares;
 }
 
+/// How many attempts each load may make, likewise.
+std::vector<std::size_t> share_attempts(const Run& run, std::span<const BlockLoad> loads) {
+  constexpr std::size_t kAny = std::numeric_limits<std::size_t>::max();
+  std::vector<std::size_t> shares(loads.size(), kAny);
+  // Without a limit, or with one that no product holds.
+  if (run.attempts_left() > kAny / std::max<std::size_t>(loads.back().end, 1)) return shares;
+  const std::size_t items = loads.back().end - loads.front().begin;
+  for (std::size_t n = 0; n < loads.size(); ++n) {
+    shares[n] = run.attempts_left() * (loads[n].end - loads[n].begin) / items;
+  }
+  return shares;
+}
+
 /// A worker in the territory of a block while this lives, also when an operator throws.
 class Stay {
  public:
@@ -119,17 +133,21 @@ void run_blocks(Run& run, PassScope& scope, Partition& partition, std::span<cons
                 double new_vertices, const std::function<void(Worker&, const BlockLoad&)>& work) {
   if (loads.empty()) return;
   const std::vector<std::size_t> growth = share_growth(run, loads);
+  const std::vector<std::size_t> attempts = share_attempts(run, loads);
   const std::vector<std::size_t> order = largest_first(loads);
   std::vector<double> seconds(loads.size(), 0);
   std::vector<Workspace::FreeSlots> slots = deal_slots(run, loads, new_vertices);
   std::atomic<std::size_t> next = 0;
+  std::atomic<bool> is_spent = false;
   const auto work_here = [&](Worker& worker) {
     for (std::size_t k = next++; k < loads.size(); k = next++) {
       const std::size_t n = order[k];
       const auto start = std::chrono::steady_clock::now();
       {
         const Stay stay(worker, Territory(partition.blocks(), loads[n].block), slots[n], growth[n]);
+        worker.set_most_attempts(attempts[n]);
         work(worker, loads[n]);
+        if (worker.is_spent()) is_spent = true;
       }
       seconds[n] = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     }
@@ -146,6 +164,7 @@ void run_blocks(Run& run, PassScope& scope, Partition& partition, std::span<cons
       }
     });
   });
+  if (is_spent) run.note_left_off();
   failure.guard([&] { run.collect_from_workers(scope); });
   failure.guard([&] { take_back(run, slots); });
   failure.rethrow();

@@ -87,7 +87,7 @@ std::size_t work_off_range(PassScope& scope, Worker& worker, std::vector<Item>& 
   std::sort(items.begin() + static_cast<std::ptrdiff_t>(begin),
             items.begin() + static_cast<std::ptrdiff_t>(end));
   std::size_t kept = begin;
-  for (std::size_t i = begin; i < end && scope.proceed(i - begin); ++i) {
+  for (std::size_t i = begin; i < end && !worker.is_spent() && scope.proceed(i - begin); ++i) {
     Item item = items[i];
     if (item.is_there(worker.mesh()) && !try_item(worker, item)) items[kept++] = item;
   }
@@ -126,7 +126,9 @@ void work_off(Run& run, PassScope& scope, std::vector<Item> items, double new_ve
     std::swap(items, rest);
     scope.note_deferred(items.size());
   }
+  run.worker().set_most_attempts(run.attempts_left());
   detail::work_off_range(scope, run.worker(), items, 0, items.size(), try_item);
+  if (run.worker().is_spent()) run.note_left_off();
   scope.take_verdicts(run.worker());
   run.note_added_vertices(run.worker());
 }

@@ -8,15 +8,9 @@
 
 #include "kernel/tet_mesh.h"
 #include "kernel/workspace.h"
+#include "schedule/pass_options.h"
 
 namespace tetmend {
-
-/// What makes a tangle.
-struct TangleLimits {
-  double share = 0.05;         ///< of inverted or flat tets among those around their vertices
-  std::size_t at_least = 100;  ///< so many of them
-  unsigned rings = 3;          ///< vertices that far from theirs may move, too
-};
 
 /// Tets around free vertices that can be moved independently of the rest.
 struct Tangle {

@@ -11,6 +11,7 @@
 
 #include "kernel/star.h"
 #include "schedule/passes.h"
+#include "schedule/tangle.h"
 #include "search/untangler.h"
 
 namespace tetmend {

@@ -3,7 +3,9 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <functional>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -31,7 +33,10 @@ class Worker {
 
   /// Says whether the run is to stop. Asked between two attempts, also on the same tet.
   void set_stop(std::function<bool()> stop) { stop_ = std::move(stop); }
-  bool is_stopped() const { return stop_ && stop_(); }
+  bool is_stopped() const { return is_spent() || (stop_ && stop_()); }
+  /// It stops when it has made that many attempts from now on.
+  void set_most_attempts(std::size_t attempts) { attempts_left_ = attempts; }
+  bool is_spent() const { return attempts_left_ == 0; }
 
   /// Attempts and counts.
   Verdict attempt(const Operator& op, Target target) {
@@ -44,6 +49,7 @@ class Worker {
   }
   Verdict count(Verdict verdict) {
     ++verdicts[static_cast<std::size_t>(verdict)];
+    if (attempts_left_ > 0) --attempts_left_;
     return verdict;
   }
 
@@ -65,6 +71,7 @@ class Worker {
   OperatorContext context_;
   AttemptInspector* inspector_ = nullptr;
   std::function<bool()> stop_;
+  std::size_t attempts_left_ = std::numeric_limits<std::size_t>::max();
 };
 
 /// The attempts of a worker have another judge while this lives.

@@ -22,13 +22,14 @@ SECTIONS = {
     "Improving": ["improve", "adapt", "Options", "Result", "Statistics", "Pass", "Progress"],
     "Meshes and files": ["Mesh", "Group", "load", "save", "formats"],
     "Figures and checks": ["quality", "Quality", "BadTet", "check", "Check", "Fact"],
+    "Walks, edits, operators one by one": ["TetMesh", "Edit", "Call", "Ring", "Look", "PassDone"],
     "Recorded runs": ["Trace"],
     "Schedules and operators": ["schedules", "Schedule", "operators", "Operator", "Parameter"],
     "Errors": ["Error", "OptionError"],
 }
 # Modules for other programs, and what they offer.
 BRIDGES = {"gmsh": "improve", "meshio": "improve", "vtk": "improve", "pyvista": "Accessor"}
-MADE_BY_USERS = ("Mesh", "Group", "Trace")  # the others come from functions
+MADE_BY_USERS = ("Mesh", "Group", "TetMesh", "Trace")  # the others come from functions
 
 # --- the page
 

@@ -4,9 +4,9 @@
 //   make a lattice of tets in a box, with a hole: the body
 //   for each step:
 //     while a part of the step is left:
-//       let the body move by that part, and the springs between the vertices pull the mesh along if
-//       a tet turns over: try again with half the part build the mesh again from the moved points
-//       improve the bad tets and what is around them; no other tet is touched
+//       let the body move by that part, and the springs between the vertices pull the mesh along
+//       if a tet turns over: try again with half the part
+//       improve what has got bad; no other tet is touched
 //     print a line
 //   with --plain: each step at once, and no improvement
 #include <algorithm>
@@ -18,21 +18,21 @@
 #include <filesystem>
 #include <map>
 #include <numbers>
+#include <span>
 #include <stdexcept>
 #include <utility>
 #include <vector>
 
 #include <CLI/CLI.hpp>
+#include <Eigen/Geometry>
 #include <Eigen/SparseCholesky>
 #include <fmt/format.h>
+#include <tetmend/measure.h>
+#include <tetmend/improve.h>
 
-#include "kernel/formats/mesh_io.h"
-#include "kernel/geometry.h"
-#include "kernel/statistics.h"
-#include "schedule/passes.h"
-
-using tetmend::MeshData;
-using tetmend::Point;
+using Point = Eigen::Vector3d;
+using Points = std::vector<std::array<double, 3>>;
+using Tets = std::vector<std::array<std::uint32_t, 4>>;
 
 namespace {
 
@@ -52,11 +52,16 @@ Point body_at(const Point& start, double time) {
   return middle + Point(kWay * time, 0, 0) + turn * (start - middle);
 }
 
+Point to_point(const std::array<double, 3>& p) {
+  return Point(p[0], p[1], p[2]);
+}
+
 struct Scene {
-  MeshData mesh;
+  Points points;
+  Tets tets;
   /// Where the vertices of the body start. They are the first vertices of the mesh and stay so,
   /// because nothing removes vertices of the boundary.
-  std::vector<Point> body;
+  Points body;
 };
 
 /// Calls visit() for all places of a lattice of that size.
@@ -78,18 +83,17 @@ int distance_from_middle(const Place& at) {
 
 Scene make_scene() {
   Scene scene;
-  MeshData& mesh = scene.mesh;
   std::map<Place, std::uint32_t> number;
   const auto add_vertices = [&](bool of_body) {
     for_each_place({kBox[0] + 1, kBox[1] + 1, kBox[2] + 1}, [&](const Place& at) {
       const int distance = distance_from_middle(at);
       if (distance == 0 || (distance == 1) != of_body) return;
-      number[at] = static_cast<std::uint32_t>(mesh.points.size());
-      mesh.points.emplace_back(at[0], at[1], at[2]);
+      number[at] = static_cast<std::uint32_t>(scene.points.size());
+      scene.points.push_back({double(at[0]), double(at[1]), double(at[2])});
     });
   };
   add_vertices(true);
-  scene.body = mesh.points;
+  scene.body = scene.points;
   add_vertices(false);
 
   // Six tets for each cell: every order of the axes is a path along the edges of the cell, from its
@@ -99,21 +103,22 @@ Scene make_scene() {
     if (distance_from_middle(cell) <= 1 && distance_from_middle(highest) <= 1) return;  // the body
     std::array<unsigned, 3> axes = {0, 1, 2};
     do {
-      MeshData::Tet tet;
+      std::array<std::uint32_t, 4> tet{};
       Place corner = cell;
       for (unsigned i = 0; i < 4; ++i) {
-        tet.vertices[i] = number.at(corner);
+        tet[i] = number.at(corner);
         if (i < 3) ++corner[axes[i]];
       }
-      const bool is_even = (axes[1] + 3 - axes[0]) % 3 == 1;
-      if (!is_even) std::swap(tet.vertices[2], tet.vertices[3]);
-      mesh.tets.push_back(tet);
+      scene.tets.push_back(tet);
     } while (std::next_permutation(axes.begin(), axes.end()));
   });
   return scene;
 }
 
 // ---- The springs --------------------------------------------------------------------------------
+
+constexpr std::array<std::array<unsigned, 2>, 6> kEdges = {
+    {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}}};
 
 bool is_on_wall(const Point& p) {
   const Point far(kBox[0], kBox[1], kBox[2]);
@@ -122,15 +127,18 @@ bool is_on_wall(const Point& p) {
 
 /// Each edge is a spring, the stiffer the shorter. Given where the body goes and that walls stay,
 /// finds the displacements of all vertices at which the springs are in balance.
-std::vector<Point> balance_springs(const Scene& scene, double time) {
-  const auto& points = scene.mesh.points;
+std::vector<Point> balance_springs(std::span<const std::array<double, 3>> places,
+                                   std::span<const std::array<std::uint32_t, 4>> tets,
+                                   const Points& body, double time) {
+  std::vector<Point> points;
+  for (const auto& place : places) points.push_back(to_point(place));
   std::vector<Point> displacements(points.size(), Point::Zero());
-  for (std::size_t v = 0; v < scene.body.size(); ++v) {
-    displacements[v] = body_at(scene.body[v], time) - points[v];
+  for (std::size_t v = 0; v < body.size(); ++v) {
+    displacements[v] = body_at(to_point(body[v]), time) - points[v];
   }
   std::vector<int> unknown(points.size(), -1);
   int count = 0;
-  for (std::size_t v = scene.body.size(); v < points.size(); ++v) {
+  for (std::size_t v = body.size(); v < points.size(); ++v) {
     if (!is_on_wall(points[v])) unknown[v] = count++;
   }
 
@@ -145,10 +153,10 @@ std::vector<Point> balance_springs(const Scene& scene, double time) {
       loads.row(unknown[v]) += stiffness * displacements[w].transpose();
     }
   };
-  for (const MeshData::Tet& tet : scene.mesh.tets) {  // an edge counts once for each of its tets
-    for (const auto& [i, j] : tetmend::kEdgeVertices) {
-      const std::uint32_t v = tet.vertices[i];
-      const std::uint32_t w = tet.vertices[j];
+  for (const auto& tet : tets) {  // an edge counts once for each of its tets
+    for (const auto& [i, j] : kEdges) {
+      const std::uint32_t v = tet[i];
+      const std::uint32_t w = tet[j];
       const double stiffness = 1 / (points[v] - points[w]).norm();
       add_spring(v, w, stiffness);
       add_spring(w, v, stiffness);
@@ -166,51 +174,17 @@ std::vector<Point> balance_springs(const Scene& scene, double time) {
 
 // ---- The steps ----------------------------------------------------------------------------------
 
-/// The scene with the body where it is at that time.
-Scene move(Scene scene, double time) {
-  const std::vector<Point> displacements = balance_springs(scene, time);
-  for (std::size_t v = 0; v < displacements.size(); ++v) scene.mesh.points[v] += displacements[v];
-  for (std::size_t v = 0; v < scene.body.size(); ++v) {
-    scene.mesh.points[v] = body_at(scene.body[v], time);  // no rounding adds up
+/// The points where they are when the body is where it is at that time.
+Points move(const tetmend::Mesh& mesh, const Points& body, double time) {
+  const auto displacements = balance_springs(mesh.points(), mesh.tets(), body, time);
+  Points moved;
+  for (std::size_t v = 0; v < displacements.size(); ++v) {
+    // No rounding adds up at the body.
+    const Point p = v < body.size() ? body_at(to_point(body[v]), time)
+                                    : to_point(mesh.points()[v]) + displacements[v];
+    moved.push_back({p.x(), p.y(), p.z()});
   }
-  return scene;
-}
-
-bool has_turned_tets(const MeshData& mesh) {
-  return std::any_of(mesh.tets.begin(), mesh.tets.end(), [&](const MeshData::Tet& tet) {
-    const auto& [a, b, c, d] = tet.vertices;
-    return !tetmend::certified_positive(mesh.points[a], mesh.points[b], mesh.points[c],
-                                        mesh.points[d]);
-  });
-}
-
-/// Improves the tets with angles below about 20 degrees; the passes try these only, and what they
-/// change lies around them. New vertices are for tets that a round has not cured, so that the mesh
-/// does not grow at every step. Returns how many tets are new or have moved.
-std::size_t improve(MeshData& data, const tetmend::Registry& registry) {
-  constexpr int kRounds = 3;
-  tetmend::TetMesh mesh(std::move(data));
-  mesh.set_standard(tetmend::Standard(tetmend::Goal{}, tetmend::Standard::Terms::sine));
-  const tetmend::Selection needy = {
-      .below = static_cast<tetmend::Quality>(mesh.standard().quality_of_angle(20.5))};
-  tetmend::Run run(mesh, registry);
-  const auto is_good = [&] { return tetmend::quality_indicators(mesh).q_worst >= needy.below; };
-  for (int round = 0; round < kRounds && !is_good(); ++round) {
-    tetmend::local_reconnection(run, {.on = needy});
-    tetmend::smooth(run, {.on = needy});
-    tetmend::suppress_points(run, {.on = needy});
-    if (round > 0) {
-      tetmend::insert_points(run, {.on = needy, .settings = {{"relax", 1}}});
-    }
-    tetmend::smooth(run, {.on = needy});
-  }
-  std::size_t touched = 0;
-  for (std::uint32_t i = 0; i < mesh.tet_slots(); ++i) {
-    const tetmend::TetHandle t(i);
-    if (!mesh.is_deleted(t) && mesh.is_touched(t)) ++touched;
-  }
-  data = mesh.to_data();
-  return touched;
+  return moved;
 }
 
 struct Effort {
@@ -219,38 +193,42 @@ struct Effort {
 };
 
 /// Moves the body on, in as many parts as it takes.
-Effort make_step(Scene& scene, double from, double to, const tetmend::Registry& registry) {
+Effort make_step(tetmend::Improver& session, const Points& body, double from, double to) {
   constexpr double kSmallestPart = 1.0 / 64;
   Effort effort;
   double done = 0;
   double part = 1;
   while (done < 1) {
-    Scene moved = move(scene, from + (to - from) * (done + part));
-    if (has_turned_tets(moved.mesh)) {
+    if (!session.move(move(session.mesh(), body, from + (to - from) * (done + part)))) {
       part /= 2;
       if (part < kSmallestPart) throw std::runtime_error("the mesh does not give way to the body");
       continue;
     }
     done += part;
-    scene = std::move(moved);
-    effort.touched += improve(scene.mesh, registry);
+    effort.touched += session.improve().touched_tets;
     ++effort.parts;
   }
   return effort;
 }
 
 /// Prints a line; false if the mesh has tets without a positive volume.
-bool report(int step, const MeshData& data, const Effort& effort, double seconds) {
-  const tetmend::MeshStatistics now = tetmend::compute_statistics(tetmend::TetMesh(data));
+bool report(int step, const tetmend::Mesh& mesh, const Effort& effort, double seconds) {
+  const tetmend::MeshStatistics now = tetmend::measure(mesh).statistics;
   const std::size_t inverted = now.inverted + now.flat;
   fmt::print("{:>4} {:>5} {:>9.2f} {:>9.2f} {:>6} {:>8} {:>7} {:>7} {:>7.3f}\n", step, effort.parts,
              now.theta_min, now.theta_max, now.n_bad, inverted, now.tets, effort.touched, seconds);
   return inverted == 0;
 }
 
+/// Tets with angles below about 20 degrees are bad; above, a moving mesh has too many of them.
+tetmend::Options options_of_steps() {
+  return {.purpose = "angles", .goal = {20.5, 159.5}, .measure = "sine", .tets = "5%"};
+}
+
 int run(int steps, bool plain, const std::filesystem::path& output) {
-  tetmend::Registry registry = tetmend::Registry::builtin();
   Scene scene = make_scene();
+  tetmend::Mesh mesh({.points = scene.points, .tets = scene.tets});
+  tetmend::Improver session(mesh, options_of_steps());
   bool is_valid = true;
   fmt::print("step parts theta_min theta_max  n_bad inverted    tets touched seconds\n");
   for (int step = 1; step <= steps; ++step) {
@@ -259,14 +237,15 @@ int run(int steps, bool plain, const std::filesystem::path& output) {
     const double to = static_cast<double>(step) / steps;
     Effort effort = {.parts = 1};
     if (plain) {
-      scene = move(std::move(scene), to);
+      mesh = tetmend::Mesh({.points = move(mesh, scene.body, to), .tets = scene.tets});
     } else {
-      effort = make_step(scene, from, to, registry);
+      effort = make_step(session, scene.body, from, to);
+      mesh = session.mesh();
     }
     const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
-    is_valid = report(step, scene.mesh, effort, seconds.count()) && is_valid;
+    is_valid = report(step, mesh, effort, seconds.count()) && is_valid;
   }
-  if (!output.empty()) tetmend::write_mesh(output, scene.mesh);
+  if (!output.empty()) tetmend::save(output, mesh);
   return is_valid ? 0 : 1;
 }
 

@@ -37,6 +37,7 @@ class TETMEND_API Proposal {
   EditResult make(Transaction& edit) const;
 
  private:
+  friend class OwnOperator;  // does it within a pass
   std::vector<TetHandle> old_;
   std::vector<TetVertices> created_;
   std::optional<std::pair<VertexHandle, Point>> move_;
@@ -119,6 +120,8 @@ class TETMEND_API Operators {
   };
   /// Null: there is none of that name.
   const Own* find(std::string_view name) const;
+  /// By name.
+  const std::map<std::string, Own, std::less<>>& all() const { return operators_; }
 
  private:
   void add(std::string_view name, std::string_view help, TargetKind target, Judge judge,

@@ -212,6 +212,13 @@ void TetMesh::set_lock(VertexHandle v, bool is_locked) {
   locks.values[v.index()] = is_locked;
 }
 
+/// Free slots are others than before.
+void TetMesh::renew_workspace() {
+  ++stamp_;
+  workspace_ = std::make_unique<Workspace>(mesh_);
+  listen();
+}
+
 /// Edits are told to the keeper where it has something to do.
 void TetMesh::listen() {
   locks_ = dynamic_cast<const ArrayOf<bool>*>(keeper_->vertices.find(kLockName));
@@ -265,8 +272,7 @@ Renumbering TetMesh::follow(const std::vector<std::uint32_t>& vertices, std::siz
     for (const std::uint32_t t : tets) kept.push_back(t < numbers.size() ? numbers[t] : 0);
     numbers = std::move(kept);
   }
-  workspace_ = std::make_unique<Workspace>(mesh_);
-  listen();
+  renew_workspace();
   return {inverse(vertices, vertex_slots), inverse(tets, tet_slots)};
 }
 

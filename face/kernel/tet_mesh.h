@@ -79,8 +79,8 @@ inline constexpr std::uint32_t kGoneSlot = 0xFFFFFFFFu;
 
 struct OperatorTools;
 
-/// A mesh of tets. It is made of a Mesh or of arrays and gives one back; nothing that the Mesh held is
-/// lost on the way. Slots begin as the numbers of the Mesh: tet 7 of its arrays is TetHandle(7).
+/// A mesh of tets. It is made of a Mesh or of arrays and gives one back; nothing that the Mesh held
+/// is lost on the way. Slots begin as the numbers of the Mesh: tet 7 of its arrays is TetHandle(7).
 ///
 /// Walks return values and change nothing: many threads may call const members at the same time.
 /// Transactions, and all else that changes the mesh, belong to one thread. Lengths are those of the
@@ -171,14 +171,21 @@ class TETMEND_API TetMesh {
   /// Must stay: named by the Mesh, or between two labels.
   bool is_constrained(HalfFace f) const { return mesh_.is_constrained(f); }
   Label label(TetHandle t) const { return mesh_.label(t); }
-  /// 1 where a dihedral angle just reaches the goal of 30 and 150 degrees, less for a worse one, 0 for
-  /// a flat tet, negative for an inverted one.
+  /// 1 where a dihedral angle just reaches the goal of 30 and 150 degrees, less for a worse one, 0
+  /// for a flat tet, negative for an inverted one.
   Quality quality(TetHandle t) const { return mesh_.quality(t); }
 
   // --- vertices ----------------------------------------------------------------------------------
   Point point(VertexHandle v) const { return mesh_.point_in_file(v); }
   bool is_boundary(VertexHandle v) const {
     return is_known(v, "is_boundary") && mesh_.is_boundary(v);
+  }
+  /// Coordinates by slot, where they lie: valid until anything changes the mesh. Empty where the
+  /// mesh is worked with in other lengths than those of its Mesh, as one of far from ordinary size
+  /// is.
+  std::span<const Point> point_view() const {
+    if (!mesh_.scale().is_one() || mesh_.vertex_slots() == 0) return {};
+    return {&mesh_.point(VertexHandle(0)), mesh_.vertex_slots()};
   }
   /// On the boundary, on a constraint, required by the Mesh, or locked: neither moves nor vanishes.
   bool is_fixed(VertexHandle v) const {
@@ -209,9 +216,9 @@ class TETMEND_API TetMesh {
                                     VertexHandle d) const;
 
   // --- properties --------------------------------------------------------------------------------
-  /// The property of the tets with that name, or a new one. It follows edits and their undo, garbage
-  /// collection and sorting. What a program writes itself, undo does not take back. The names of
-  /// to_mesh().tet_data() are others.
+  /// The property of the tets with that name, or a new one. It follows edits and their undo,
+  /// garbage collection and sorting. What a program writes itself, undo does not take back. The
+  /// names of to_mesh().tet_data() are others.
   /// @param rule what the tets that an edit makes begin with: NewTets, or a function, see TetRule
   /// @throws Error while a transaction is open, or when a property of that name has another type
   template <class T>
@@ -237,7 +244,8 @@ class TETMEND_API TetMesh {
   bool remove_vertex_property(std::string_view name);
 
   // --- the mesh as a whole; handles made before are invalid then ---------------------------------
-  /// Removes deleted slots; the order of the others stays. @throws Error while a transaction is open.
+  /// Removes deleted slots; the order of the others stays. @throws Error while a transaction is
+  /// open.
   Renumbering collect_garbage();
   /// Neighbours in space become neighbours in memory: walks take half the time or less on a large
   /// mesh in a poor order. Removes deleted slots. @throws Error while a transaction is open.
@@ -247,6 +255,7 @@ class TETMEND_API TetMesh {
 
  private:
   friend class Transaction;
+  friend class Run;
   friend struct OperatorTools;
   friend struct LiveTet;
   friend struct LiveVertex;
@@ -280,6 +289,7 @@ class TETMEND_API TetMesh {
   }
   void set_lock(VertexHandle v, bool is_locked);
   void listen();
+  void renew_workspace();
   Renumbering follow(const std::vector<std::uint32_t>& vertices, std::size_t vertex_slots,
                      const std::vector<std::uint32_t>& tets, std::size_t tet_slots);
 
@@ -303,6 +313,7 @@ class TETMEND_API TetMesh {
   tetmend::TetMesh mesh_;
   std::size_t loose_ = 0;  // points of no tet
   unsigned open_ = 0;      // transactions
+  std::size_t stamp_ = 0;  // raised by whatever may use free slots, or move handles
   std::unique_ptr<Workspace> workspace_;
   std::unique_ptr<PropertyKeeper> keeper_;
   const ArrayOf<bool>* locks_ = nullptr;  // in the keeper

@@ -17,7 +17,9 @@ constexpr VertexHandle kNewVertex;
 }  // namespace
 
 Transaction::Transaction(TetMesh& mesh)
-    : mesh_(mesh), inner_(mesh.mesh_, *mesh.workspace_), depth_(++mesh.open_) {}
+    : mesh_(mesh), inner_(mesh.mesh_, *mesh.workspace_), depth_(++mesh.open_) {
+  ++mesh.stamp_;
+}
 
 Transaction::~Transaction() {
   if (!kept_) inner_.undo();

@@ -32,7 +32,7 @@ TEST_CASE("the programs of docs/library.md are those that the install test build
   const auto programs = kSource / "tests/install/library_user";
   const std::string sources =
       read_text(programs / "main.cpp") + read_text(programs / "embedded.cpp");
-  CHECK(blocks_of(page, "cpp").size() == 5);
+  CHECK(blocks_of(page, "cpp").size() == 6);
   for (const std::string& block : blocks_of(page, "cpp")) {
     CAPTURE(block);
     CHECK(sources.find(block) != std::string::npos);

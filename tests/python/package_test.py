@@ -617,7 +617,7 @@ def test_notebooks_show_a_table_of_before_and_after(materials):
     assert "cancelled" in tetmend.improve(materials, progress=lambda moment: False)._repr_html_()
 
 
-@pytest.mark.parametrize("name", ["_arrays", "_catalogue", "_check", "_figures", "_html", "_improve", "_mesh", "_options", "_quality"])
+@pytest.mark.parametrize("name", ["_arrays", "_catalogue", "_check", "_figures", "_html", "_improve", "_kernel", "_mesh", "_options", "_quality"])
 def test_examples_in_docstrings_print_what_they_say(name):
     outcome = doctest.testmod(importlib.import_module(f"tetmend.{name}"), optionflags=doctest.IGNORE_EXCEPTION_DETAIL)
     assert outcome.failed == 0 < outcome.attempted
@@ -629,7 +629,7 @@ def test_the_stub_has_the_names_of_the_extension():
     names = {node.name for node in tree.body if isinstance(node, kinds)}
     assert names == {name for name in dir(_core) if not name.startswith("__")}
     for node in tree.body:
-        if isinstance(node, ast.ClassDef) and node.name in ("Mesh", "Trace", "Progress"):
+        if isinstance(node, ast.ClassDef) and node.name in ("Edit", "Mesh", "Progress", "Proposal", "TetMesh", "Trace"):
             members = {each.name for each in node.body if isinstance(each, kinds)} - {"__init__"}
             assert members == {name for name in dir(getattr(_core, node.name)) if not name.startswith("_")}
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The classes Mesh and Trace of the extension, and improving.
+// The classes Mesh, TetMesh and Trace of the extension, and improving.
 #pragma once
 
 #include <pybind11/pybind11.h>
@@ -8,6 +8,7 @@ namespace tetmend::python {
 
 void add_mesh(pybind11::module_& module);
 void add_improve(pybind11::module_& module);
+void add_kernel(pybind11::module_& module);
 void add_trace(pybind11::module_& module);
 void add_report(pybind11::module_& module);
 

@@ -65,6 +65,7 @@ PYBIND11_MODULE(_core, module) {
   translate_errors(error, option_error);
   add_mesh(module);
   add_improve(module);
+  add_kernel(module);
   add_trace(module);
   add_report(module);
   module.attr("__version__") = std::string(tetmend::version());

@@ -17,13 +17,14 @@ from tetmend._check import Check, Fact, check
 from tetmend._core import Error, OptionError, Progress, __version__
 from tetmend._figures import Pass, Statistics
 from tetmend._improve import Result, adapt, improve
+from tetmend._kernel import Call, Edit, Look, PassDone, Ring, TetMesh
 from tetmend._mesh import Group, Mesh, load, save
 from tetmend._options import Options
 from tetmend._quality import BadTet, Quality, quality
 from tetmend._trace import Trace
 
 __all__ = [
-    "BadTet", "Check", "Error", "Fact", "Group", "Mesh", "Operator", "OptionError", "Options", "Parameter", "Pass", "Progress", "Quality",
-    "Result", "Schedule", "Statistics", "Trace", "__version__", "adapt", "check", "formats", "improve", "load", "operators", "quality",
-    "save", "schedules",
+    "BadTet", "Call", "Check", "Edit", "Error", "Fact", "Group", "Look", "Mesh", "Operator", "OptionError", "Options", "Parameter",
+    "Pass", "PassDone", "Progress", "Quality", "Result", "Ring", "Schedule", "Statistics", "TetMesh", "Trace", "__version__", "adapt",
+    "check", "formats", "improve", "load", "operators", "quality", "save", "schedules",
 ]

@@ -13,6 +13,7 @@
 #include <tetmend/kernel.h>
 #include <tetmend/measure.h>
 #include <tetmend/operators.h>
+#include <tetmend/schedule.h>
 
 using namespace tetmend::kernel;
 
@@ -185,6 +186,22 @@ Operators own_operators() {
   return own;
 }
 
+QualityIndicators improve_by_rounds(TetMesh& mesh) {
+  const Operators own = own_operators();
+  Run run(mesh, {.threads = 4, .operators = &own});
+  QualityIndicators before, now = run.indicators();
+  do {
+    before = now;
+    run.local_reconnection({.edge_settings = {{"max_level", 2}}, .most_edges = 1});
+    run.smooth();
+    run.apply("my_flip");
+    run.apply({.what = first_of({one("edge_removal"), one("multi_face_removal")}),
+               .on = {.below = 0.5F, .worst = 100}});
+    now = run.indicators();
+  } while (now.n_bad > 0 && is_progress_over(now, before));
+  return now;
+}
+
 /// Prints and ends the program when something of the page is not so.
 void expect(bool holds, const char* what) {
   if (holds) return;
@@ -209,6 +226,11 @@ int main(int argc, char** argv) {
   save("half.vtu", half_of(mesh, 0.5));
   expect(refine(mesh).tet_count() == 8 * mesh.tet_count(), "(i) eight tets for one");
   std::fputs(largest_call(mesh).text().c_str(), stdout);
+  TetMesh better(mesh);
+  const std::size_t left = improve_by_rounds(better).n_bad;
+  std::printf("%zu bad tets after rounds\n", left);
+  expect(better.check().empty(), "the mesh is sound after passes");
+  expect(left <= Run(mesh).indicators().n_bad, "passes leave no more bad tets");
   const Operators own = own_operators();
   std::size_t accepted = 0;
   for (TetEdge e : mesh.edges()) accepted += attempt(mesh, own, "my_flip", e).accepted() ? 1 : 0;

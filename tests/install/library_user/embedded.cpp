@@ -76,6 +76,24 @@ tetmend::Result improve_by_own_script(tetmend::Mesh& mesh, const std::string& pl
   return tetmend::improve(mesh, options);
 }
 
+/// Steps of a solver that moves the nodes of its mesh; a node is asked for by its number.
+std::size_t follow(tetmend::Mesh mesh, int steps, double way) {
+  tetmend::Improver session(std::move(mesh), {.threads = 4});
+  std::uint32_t probe = 0;  // a node that must stay where the solver put it
+  session.hold([&](std::uint32_t node) { return node == probe; });
+  std::size_t touched = 0;
+  for (int i = 0; i < steps; ++i) {
+    std::vector<std::array<double, 3>> nodes(session.mesh().points().begin(),
+                                             session.mesh().points().end());
+    for (auto& [x, y, z] : nodes) x += way / steps * z;
+    if (!session.move(nodes)) break;  // a tet would turn over: shorter steps, please
+    const tetmend::Step step = session.improve(20000);
+    probe = step.vertex_map[probe];
+    touched += step.touched_tets;
+  }
+  return touched;
+}
+
 /// Prints and ends the program when a promise of the page is broken.
 void expect(bool kept, const char* promise) {
   if (kept) return;
@@ -110,6 +128,8 @@ int main(int argc, char** argv) {
   expect(improve_watched(mesh) == tetmend::Ending::finished, "a run that nobody stops ends");
   stop_button = true;
   expect(improve_watched(mesh) == tetmend::Ending::cancelled, "the button stops a run");
+
+  expect(follow(part, 5, 0.5) > 0, "a session mends what a solver moves");
 
   mesh = part;
   const tetmend::Result result = improve_by_own_script(mesh, argv[1]);

@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: MIT
+// Passes and schedules of a program over its own mesh.
+#include <algorithm>
+#include <array>
+#include <stdexcept>
+#include <string>
+
+#include <doctest/doctest.h>
+#include <tetmend/improve.h>
+
+#include "face/kernel/run.h"
+#include "face/kernel/transaction.h"
+#include "tests/face/meshes.h"
+
+using namespace tetmend::kernel;
+using tetmend::test::message_of;
+using tetmend::test::shaken_cube;
+
+namespace {
+
+Operators own_flip(std::size_t* calls = nullptr) {
+  Operators own;
+  own.add(
+      "own_flip", "three tets of an edge become two",
+      [calls](const TetMesh& look, TetEdge e, Proposal& out) {
+        if (calls != nullptr) ++*calls;
+        const Ring r = look.ring(e);
+        if (!r.closed || r.tets.size() != 3) return Verdict::not_applicable;
+        const auto& p = r.vertices;
+        return out.replace(r.tets, {{r.a, p[0], p[1], p[2]}, {p[0], p[1], p[2], r.b}});
+      },
+      Judge::by([](Judge::Tets before, Judge::Tets now) { return now.size() < before.size(); }));
+  return own;
+}
+
+std::vector<std::array<double, 3>> points_of(const TetMesh& mesh) {
+  std::vector<std::array<double, 3>> points;
+  for (VertexHandle v : mesh.vertices()) {
+    const Point p = mesh.point(v);
+    points.push_back({p.x(), p.y(), p.z()});
+  }
+  return points;
+}
+
+std::vector<std::array<std::uint32_t, 4>> tets_of(const TetMesh& mesh) {
+  std::vector<std::array<std::uint32_t, 4>> tets;
+  for (TetHandle t : mesh.tets()) {
+    const auto& v = mesh.vertices(t);
+    tets.push_back({v[0].index(), v[1].index(), v[2].index(), v[3].index()});
+  }
+  return tets;
+}
+
+std::size_t count_bad(const TetMesh& mesh) {
+  const auto tets = mesh.tets();
+  return static_cast<std::size_t>(
+      std::count_if(tets.begin(), tets.end(), [&](TetHandle t) { return mesh.quality(t) < 1; }));
+}
+
+/// Algorithm 6, as shell.lua has it in its rounds.
+QualityIndicators improve_by_rounds(Run& run) {
+  QualityIndicators before = run.indicators(), now = before;
+  do {
+    before = now;
+    run.local_reconnection();
+    run.smooth();
+    run.suppress_points();
+    run.smooth();
+    now = run.indicators();
+  } while (now.n_bad > 0 && is_progress_over(now, before));
+  return now;
+}
+
+}  // namespace
+
+TEST_CASE("a schedule in C++ improves a mesh, with the same bytes for every number of threads") {
+  TetMesh mesh{Mesh(shaken_cube(26, 0.8))};  // large enough to be divided
+  TetMesh other(mesh);
+  const std::size_t bad = count_bad(mesh);
+  Run run(mesh);
+  const QualityIndicators now = improve_by_rounds(run);
+  CHECK(now.n_bad < bad / 4);
+  CHECK(mesh.check().empty());
+  Run by_three(other, {.threads = 3});
+  improve_by_rounds(by_three);
+  CHECK(points_of(mesh) == points_of(other));
+  CHECK(tets_of(mesh) == tets_of(other));
+}
+
+TEST_CASE("the mesh of a program may be edited between passes, which begin anew then") {
+  TetMesh mesh{Mesh(shaken_cube(6, 1.0))};
+  Run run(mesh);
+  CHECK(run.local_reconnection().attempts > 0);
+  run.local_reconnection();
+  const PassDone again = run.local_reconnection();
+  std::size_t kept = 0;
+  for (TetEdge e : mesh.edges()) {
+    const auto [a, b] = mesh.vertices(e);
+    Transaction edit(mesh);
+    if (!edit.split(e, (mesh.point(a) + mesh.point(b)) / 2).is_valid()) continue;
+    edit.keep();
+    if (++kept == 50) break;
+  }
+  REQUIRE(kept == 50);
+  CHECK(mesh.check().empty());
+  CHECK(run.local_reconnection().attempts > again.attempts);
+  CHECK(run.smooth().accepted > 0);
+  for (TetHandle t : mesh.tets()) attempt(mesh, "edge_removal", TetEdge(t, 0));
+  mesh.collect_garbage();
+  run.local_reconnection();
+  CHECK(mesh.check().empty());
+  Transaction edit(mesh);
+  CHECK(message_of([&] { run.smooth(); }) == "a pass while a transaction is open");
+}
+
+TEST_CASE("operators of a program are tried by passes, compositions and scripts") {
+  TetMesh mesh{Mesh(shaken_cube(6, 0.6))};
+  for (HalfFace f : mesh.faces()) {  // makes edges of three tets
+    Transaction edit(mesh);
+    if (edit.flip_2_3(f) == EditResult::made) edit.keep();
+  }
+  TetMesh other(mesh);
+  std::size_t calls = 0;
+  const Operators own = own_flip(&calls);
+  Run run(mesh, {.threads = 2, .operators = &own});
+  const std::size_t tets = mesh.tet_count();
+  const PassDone flips = run.apply("own_flip", {.below = Selection::kAll});
+  CHECK(flips.name == "own_flip");
+  CHECK(flips.attempts == calls);
+  CHECK(flips.accepted > 5);
+  CHECK(mesh.tet_count() == tets - flips.accepted);
+  CHECK(mesh.check().empty());
+  const PassDone both = run.apply({.what = first_of({one("own_flip"), one("edge_removal")})});
+  CHECK(both.name == "first_of(own_flip, edge_removal)");
+  Run by_script(other, {.operators = &own});
+  const auto passes = by_script.schedule("apply('own_flip', {on = {below = 100}})");
+  REQUIRE(passes.size() == 1);
+  CHECK(passes[0].accepted == flips.accepted);
+  CHECK(message_of([&] { run.apply("no_such"); }).find("own_flip") != std::string::npos);
+  CHECK(message_of([&] { Run(mesh, {.threads = 0}); }).starts_with("threads: "));
+}
+
+TEST_CASE(
+    "what an operator of a program throws names it, and the mesh is as its attempt found it") {
+  Operators own;
+  own.add("fails", "throws", [](const TetMesh&, TetHandle, Proposal&) -> Verdict {
+    throw std::runtime_error("own fault");
+  });
+  own.add("lies", "proposes what is no mesh", [](const TetMesh& look, TetHandle t, Proposal& out) {
+    const auto v = look.vertices(t);
+    return out.replace(std::array{t}, {{v[0], v[1], v[3], v[2]}});
+  });
+  own.add("names_nothing", "a vertex that is not there",
+          [](const TetMesh& look, TetHandle t, Proposal& out) {
+            const auto v = look.vertices(t);
+            return out.replace(std::array{t}, {{v[0], v[1], v[2], VertexHandle()}});
+          });
+  TetMesh mesh{Mesh(shaken_cube(4, 1.0))};
+  const auto points = points_of(mesh);
+  Run run(mesh, {.operators = &own});
+  const std::string message = message_of([&] { run.apply("fails"); });
+  CHECK(message.find("fails") != std::string::npos);
+  CHECK(message.find("own fault") != std::string::npos);
+  for (const char* name : {"lies", "names_nothing"}) {
+    const PassDone done = run.apply(name);
+    CHECK(done.attempts > 0);
+    CHECK(done.accepted == 0);
+  }
+  CHECK(points_of(mesh) == points);
+  CHECK(mesh.check().empty());
+}
+
+TEST_CASE("in passes locked vertices stay and properties follow") {
+  TetMesh mesh{Mesh(shaken_cube(6, 1.0))};
+  auto age = mesh.tet_property<int>("age", 0);
+  for (TetHandle t : mesh.tets()) age[t] = 7;
+  std::vector<std::pair<VertexHandle, Point>> locked;
+  for (VertexHandle v : mesh.vertices()) {
+    if (mesh.is_fixed(v) || v.index() % 3 != 0) continue;
+    mesh.lock(v);
+    locked.emplace_back(v, mesh.point(v));
+  }
+  REQUIRE(locked.size() > 10);
+  const auto before = tets_of(mesh);
+  Run run(mesh);
+  run.schedule("shell", {{"max_rounds", "2"}});
+  for (const auto& [v, point] : locked) {
+    REQUIRE_FALSE(mesh.is_deleted(v));
+    CHECK(mesh.point(v) == point);
+    CHECK(mesh.is_locked(v));
+  }
+  std::size_t made = 0;
+  for (TetHandle t : mesh.tets()) {
+    if (age[t] == 0) ++made;
+    const auto& v = mesh.vertices(t);
+    const bool is_old =
+        t.index() < before.size() &&
+        std::array{v[0].index(), v[1].index(), v[2].index(), v[3].index()} == before[t.index()];
+    if (!is_old) CHECK(age[t] == 0);
+  }
+  CHECK(made > 0);
+  CHECK(mesh.check().empty());
+  Transaction edit(mesh);
+  CHECK(edit.move(locked[0].first, locked[0].second) == EditResult::constrained);
+}
+
+TEST_CASE("a run ends with its attempts, and another goal is worked towards when it is set") {
+  TetMesh mesh{Mesh(shaken_cube(8, 1.0))};
+  Run few(mesh, {.most_attempts = 100});
+  few.local_reconnection();
+  CHECK(few.is_over());
+  CHECK(few.smooth().attempts == 0);
+  Run run(mesh);
+  const std::size_t bad = run.indicators().n_bad;
+  run.set_goal({.min_angle = 40, .max_angle = 140});
+  CHECK(run.indicators().n_bad > bad);
+  CHECK(message_of([&] { run.set_goal({.min_angle = -3}); }).starts_with("goal: "));
+}
