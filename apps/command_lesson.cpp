@@ -133,6 +133,10 @@ void check_making(const LessonOptions& options) {
   }
 }
 
+std::filesystem::path where(const std::filesystem::path& file) {
+  return std::filesystem::weakly_canonical(std::filesystem::absolute(file));
+}
+
 /// A lesson names its trace from its own folder.
 void make_lesson(const LessonOptions& options) {
   const NamedFile output = {"-o", options.output};
@@ -146,8 +150,8 @@ void make_lesson(const LessonOptions& options) {
   }
   Replay replay(file);
   Lesson lesson = explain::propose_lesson(file, replay, *options.call, options.title);
-  lesson.trace = std::filesystem::weakly_canonical(options.trace);
-  const auto folder = std::filesystem::weakly_canonical(options.output).parent_path();
+  lesson.trace = where(options.trace);
+  const auto folder = where(options.output).parent_path();
   const auto beside = lesson.trace.lexically_relative(folder);
   if (beside.empty() || *beside.begin() == "..") {
     throw Error(fmt::format("a lesson lies beside its trace, or above: -o {} does not",
