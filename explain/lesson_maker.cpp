@@ -78,7 +78,7 @@ class LessonProposal {
     ask(ring_text, {ring}, {Ask::Kind::chord, "Pick a chord of the covering that it finds."});
     ask(ring_text, {ring},
         {Ask::Kind::number, "How many triangulations has the ring?", "triangulations"});
-    ask("What it changes at first makes new tets.", {picture},
+    ask("Its first change puts new tets in the place of old ones.", {picture},
         {Ask::Kind::number, "How many tets will be made?", "tets made"});
     ask("An operator may call others, and these may, too.", {picture},
         {Ask::Kind::number, "How many calls will there be in it?", "calls"});

@@ -27,6 +27,7 @@ OF_THE_BROWSER = re.compile(r"software WebGL has been deprecated|GL Driver Messa
 
 # Where things are at a step, and what is cut off.
 LOOK = """
+const look = () => {
 const isSeen = (e) => e.getClientRects().length > 0;
 const box = (e) => { const r = e.getBoundingClientRect(); return [r.left, r.top, r.right, r.bottom].map((x) => Math.round(10 * x) / 10); };
 const wanted = lesson.steps[place.lesson].focus;
@@ -61,7 +62,21 @@ for (const [name, selector] of Object.entries(panels)) {
 const size = (selector) => { const r = document.querySelector(selector).getBoundingClientRect(); return Math.min(r.width, r.height); };
 if (shown.includes("picture") && size("#stage") < 95) bad.push(`picture of ${size("#stage")}`);
 if (shown.includes("ring") && size("#ring") < 95) bad.push(`ring of ${size("#ring")}`);
-return {bad, wanted, shown, next: box(document.getElementById("lesson-next")), back: box(document.getElementById("lesson-back")), theme: document.documentElement.dataset.theme};
+return {hash: location.hash, bad, wanted, shown, next: box(document.getElementById("lesson-next")), back: box(document.getElementById("lesson-back")), theme: document.documentElement.dataset.theme};
+};
+"""
+# From the first step to the last by Next alone; each once more with its question answered.
+WALK = LOOK + """
+const seen = [];
+for (let n = 0; n < lesson.steps.length; ++n) {
+  seen.push(look());
+  if (questionAt(n)) {
+    giveAnswer(n, false, questionAt(n).kind === "chord" ? [0, 0] : 1);
+    seen.push(look());
+  }
+  if (n + 1 < lesson.steps.length) document.getElementById("lesson-next").click();
+}
+return seen;
 """
 
 
@@ -83,29 +98,23 @@ class Stage(unittest.TestCase):
         self.assertEqual([line for line in where.complaints() if not OF_THE_BROWSER.search(line)], [], what)
 
     def walk(self, where: browser.Browser, page: Path, large: bool, dark: bool) -> int:
-        """From the first step to the last by Next alone; each once more with its question answered."""
         where.open("about:blank")
         where.open(page.as_uri())
         if large:
             where.run("document.getElementById('text-size').click()")
-        steps = len(recording(page)["lesson"]["steps"])
-        places = set()
-        for step in range(1, steps + 1):
-            what = f"{page.name}, step {step}"
-            self.assertEqual(where.run("return location.hash"), f"#lesson={step}", what)
-            for _ in ("asked", "answered"):
-                seen = where.run(LOOK)
-                self.assertEqual(seen["bad"], [], what)
-                self.assertTrue(seen["shown"], what)
-                self.assertLessEqual(set(seen["shown"]), set(seen["wanted"]) | {"picture"}, what)
-                places.add((*seen["next"], *seen["back"]))
-                where.run("if (questionAt(place.lesson)) giveAnswer(place.lesson, false, questionAt(place.lesson).kind === 'chord' ? [0, 0] : 1)")
-            self.assertEqual(seen["theme"], "dark" if dark else "light", what)
-            if step < steps:  # the last one leads to the next page
-                where.run("document.getElementById('lesson-next').click()")
-        self.assertEqual(len(places), 1, f"{page.name}: Next and Previous move")
+        steps = recording(page)["lesson"]["steps"]
+        seen = where.run(WALK)
+        for look in seen:
+            what = f"{page.name}, {look['hash']}"
+            self.assertEqual(look["bad"], [], what)
+            self.assertTrue(look["shown"], what)
+            self.assertLessEqual(set(look["shown"]), set(look["wanted"]) | {"picture"}, what)
+            self.assertEqual(look["theme"], "dark" if dark else "light", what)
+        wanted = [f"#lesson={n}" for n, step in enumerate(steps, 1) for _ in range(2 if "ask" in step else 1)]
+        self.assertEqual([look["hash"] for look in seen], wanted, page.name)
+        self.assertEqual(len({(*look["next"], *look["back"]) for look in seen}), 1, f"{page.name}: Next and Previous move")
         self.quiet(where, page.name)
-        return steps
+        return len(steps)
 
     def test_what_each_step_speaks_of_is_in_the_window_and_next_never_moves(self) -> None:
         for name, (width, height, large) in SIZES.items():
@@ -123,12 +132,13 @@ class Stage(unittest.TestCase):
         where = window(1920, 1080)
         try:
             for page in PAGES:
-                for step, told in enumerate(recording(page)["lesson"]["steps"], 1):
-                    where.open("about:blank")
-                    where.open(f"{page.as_uri()}#lesson={step}")
-                    shown = set(where.run(LOOK)["shown"])
-                    if step > 1:
-                        self.assertEqual(shown, set(told["focus"]), f"{page.name}, step {step}")
+                where.open("about:blank")
+                where.open(page.as_uri())
+                steps = recording(page)["lesson"]["steps"]
+                shown = {look["hash"]: set(look["shown"]) for look in where.run(WALK)}
+                for step, told in enumerate(steps[1:], 2):
+                    with self.subTest(page=page.name, step=step):
+                        self.assertEqual(shown[f"#lesson={step}"], set(told["focus"]))
         finally:
             where.close()
 

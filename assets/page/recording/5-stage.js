@@ -1,7 +1,7 @@
 // The stage of a lesson: the text of a step, the panels that it speaks of, and its question.
 
 const lesson = recording.lesson ?? null;
-const PANELS = {picture: ".picture", ring: ".ring", tables: ".tables", algorithm: ".code", tree: ".tree"};
+const PANELS = {picture: ".picture", algorithm: ".code", ring: ".ring", tables: ".tables", tree: ".tree"};  // as they follow each other
 const DRAWN = ["picture", "ring"];  // as large as there is room; the others have the size of their text
 const answers = new Map();  // by step of the lesson: {isRight, given}
 
