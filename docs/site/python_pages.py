@@ -22,7 +22,7 @@ SECTIONS = {
     "Improving": ["improve", "adapt", "Options", "Result", "Statistics", "Pass", "Progress"],
     "Meshes and files": ["Mesh", "Group", "load", "save", "formats"],
     "Figures and checks": ["quality", "Quality", "BadTet", "check", "Check", "Fact"],
-    "Recorded runs": ["Trace"],
+    "Recorded runs": ["Trace", "TracePage"],
     "Schedules and operators": ["schedules", "Schedule", "operators", "Operator", "Parameter"],
     "Errors": ["Error", "OptionError"],
 }

@@ -9,6 +9,7 @@ namespace tetmend::python {
 void add_mesh(pybind11::module_& module);
 void add_improve(pybind11::module_& module);
 void add_trace(pybind11::module_& module);
+void add_page(pybind11::module_& module);
 void add_report(pybind11::module_& module);
 
 }  // namespace tetmend::python

@@ -20,10 +20,10 @@ from tetmend._improve import Result, adapt, improve
 from tetmend._mesh import Group, Mesh, load, save
 from tetmend._options import Options
 from tetmend._quality import BadTet, Quality, quality
-from tetmend._trace import Trace
+from tetmend._trace import Trace, TracePage
 
 __all__ = [
     "BadTet", "Check", "Error", "Fact", "Group", "Mesh", "Operator", "OptionError", "Options", "Parameter", "Pass", "Progress", "Quality",
-    "Result", "Schedule", "Statistics", "Trace", "__version__", "adapt", "check", "formats", "improve", "load", "operators", "quality",
-    "save", "schedules",
+    "Result", "Schedule", "Statistics", "Trace", "TracePage", "__version__", "adapt", "check", "formats", "improve", "load", "operators",
+    "quality", "save", "schedules",
 ]
