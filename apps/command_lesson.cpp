@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <optional>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -13,8 +14,10 @@
 #include "apps/files.h"
 #include "apps/standard_streams.h"
 #include "explain/lesson_guide.h"
+#include "explain/lesson_maker.h"
 #include "explain/page.h"
 #include "kernel/formats/output_file.h"
+#include "kernel/printable.h"
 
 namespace tetmend::apps {
 namespace {
@@ -23,14 +26,19 @@ struct LessonOptions {
   std::string name;
   std::filesystem::path output;
   bool html = false;
+  std::filesystem::path trace;  ///< to make a lesson of; empty: none
+  std::optional<std::uint32_t> call;
+  std::string title;
 };
 
 std::string name_of(const std::filesystem::path& lesson) {
   return lesson.stem().string();
 }
 
+/// One of those that there are, or a file.
 std::filesystem::path find(const std::string& name,
                            const std::vector<std::filesystem::path>& lessons) {
+  if (std::filesystem::path(name).extension() == ".json") return name;
   const auto found = std::find_if(lessons.begin(), lessons.end(),
                                   [&](const auto& lesson) { return name_of(lesson) == name; });
   if (found != lessons.end()) return *found;
@@ -44,14 +52,28 @@ std::string program() {
   return fmt::format("tetmend {}", version());
 }
 
-std::string page_of(const Lesson& lesson) {
+/// Pages before and after it, and the list of all: nothing for a page by itself.
+struct Neighbours {
+  std::optional<explain::PageLink> contents = {}, previous = {}, next = {};
+};
+
+std::string page_of(const Lesson& lesson, const Neighbours& neighbours = {}) {
   const TraceFile file(lesson.trace);
+  if (lesson.steps.back().at > file.event_count() ||
+      (lesson.call && *lesson.call >= file.calls().size())) {
+    throw Error(fmt::format("{}: the lesson goes beyond the end of its trace",
+                            printable(lesson.trace.string())));
+  }
   Replay replay(file);
   return explain::write_page(file, replay,
                              {.title = lesson.title,
-                              .range = {0, file.event_count()},
+                              .range = lesson.call ? explain::range_of_call(file, *lesson.call)
+                                                   : explain::RecordingRange{0, file.event_count()},
                               .lesson = &lesson,
-                              .program = program()})
+                              .program = program(),
+                              .contents = neighbours.contents,
+                              .previous = neighbours.previous,
+                              .next = neighbours.next})
       .html;
 }
 
@@ -84,15 +106,66 @@ void write_all(const LessonOptions& options, const std::vector<std::filesystem::
   std::vector<explain::PageLink> pages;
   for (const auto& path : lessons) {
     const Lesson lesson = read_lesson(path);
-    const std::filesystem::path name = page_name(path);
-    put(options.output / name, page_of(lesson));
-    pages.push_back({name.string(), lesson.title, lesson.steps.front().text});
+    pages.push_back({page_name(path).string(), lesson.title, lesson.steps.front().text});
+  }
+  const std::string title = fmt::format("A lecture in {} pages", pages.size());
+  for (std::size_t n = 0; n < lessons.size(); ++n) {
+    Neighbours around{.contents = explain::PageLink{"index.html", title, ""}};
+    if (n > 0) around.previous = pages[n - 1];
+    if (n + 1 < pages.size()) around.next = pages[n + 1];
+    put(options.output / page_name(lessons[n]), page_of(read_lesson(lessons[n]), around));
   }
   put(options.output / "index.html",
-      explain::write_index("Lessons", "Recorded runs of tetmend, step by step.", pages, program()));
+      explain::write_index(title, "Recorded runs of tetmend, step by step, with questions.", pages,
+                           program()));
+}
+
+void check_making(const LessonOptions& options) {
+  if (options.trace.empty()) {
+    if (options.call) throw UsageError("--call is for --make");
+    if (!options.title.empty()) throw UsageError("--title is for --make");
+    return;
+  }
+  if (!options.call) throw UsageError("--make needs --call, the call to tell of");
+  if (options.output.extension() != ".json") throw UsageError("--make needs -o, a .json file");
+  if (!options.name.empty() || options.html) {
+    throw UsageError("--make writes a new lesson: without NAME and --html");
+  }
+}
+
+std::filesystem::path where(const std::filesystem::path& file) {
+  return std::filesystem::weakly_canonical(std::filesystem::absolute(file));
+}
+
+/// A lesson names its trace from its own folder.
+void make_lesson(const LessonOptions& options) {
+  const NamedFile output = {"-o", options.output};
+  const std::vector<NamedFile> inputs = {{"the trace", options.trace}};
+  prepare_files(inputs, {&output, 1}, nullptr);
+  const TraceFile file(options.trace);
+  if (!file.damage().empty()) complain(kSuccess, "warning: " + file.damage());
+  if (*options.call >= file.calls().size()) {
+    throw Error(
+        fmt::format("there is no call {}: the trace has {}", *options.call, file.calls().size()));
+  }
+  Replay replay(file);
+  Lesson lesson = explain::propose_lesson(file, replay, *options.call, options.title);
+  lesson.trace = where(options.trace);
+  const auto folder = where(options.output).parent_path();
+  const auto beside = lesson.trace.lexically_relative(folder);
+  if (beside.empty() || *beside.begin() == "..") {
+    throw Error(fmt::format("a lesson lies beside its trace, or above: -o {} does not",
+                            printable(options.output.string())));
+  }
+  put(options.output, lesson_text(lesson, folder));
 }
 
 int run_lesson(const LessonOptions& options) {
+  check_making(options);
+  if (!options.trace.empty()) {
+    make_lesson(options);
+    return 0;
+  }
   const auto lessons = explain::find_lessons();
   if (lessons.empty()) throw Error("there are no lessons: TETMEND_LESSONS may name their folder");
   if (options.name.empty() && !options.html) {
@@ -119,6 +192,7 @@ int run_lesson(const LessonOptions& options) {
     text = lesson.title + "\n";
     for (const LessonStep& step : lesson.steps) {
       text += fmt::format("\n{:>4}  {}\n", step.at, step.text);
+      if (step.ask) text += fmt::format("      {}\n", step.ask->text);
     }
   }
   if (options.output.empty()) {
@@ -135,10 +209,17 @@ void add_lesson(CLI::App& app, Invocation& invocation) {
   const auto options = std::make_shared<LessonOptions>();
   CLI::App* command =
       app.add_subcommand("lesson", "Recorded runs with a text that leads through them");
-  command->add_option("NAME", options->name, "Only this one")->type_name("");
+  command->add_option("NAME", options->name, "Only this one; or a file of your own, .json")
+      ->type_name("");
   command->add_flag("--html", options->html, "As a page for a browser; of all lessons, a folder");
   command->add_option("-o,--output", options->output, "File, or folder for the pages of all")
       ->type_name("OUT");
+  command
+      ->add_option("--make", options->trace,
+                   "Proposes a lesson on a call of a run: steps and\nthree questions, -o NAME.json")
+      ->type_name("TRACE");
+  command->add_option("--call", options->call, "The call of --make")->type_name("CALL");
+  command->add_option("--title", options->title, "Of --make")->type_name("TEXT");
   command->footer(R"(A page holds all that it needs: it opens by a double click, without a network.
 tetmend-view opens the same lessons. They lie in share/tetmend/lessons, or where
 TETMEND_LESSONS says.
@@ -148,6 +229,8 @@ Examples:
   tetmend lesson 2-two-shells                         its text
   tetmend lesson 2-two-shells --html -o lesson.html   its page
   tetmend lesson --html -o lessons                    pages of all, with an index
+  tetmend lesson --make run.trace --call 17 -o run.json
+  tetmend lesson run.json --html -o run.html
 
 Exit status: 0 success, 1 the work failed, 2 wrong usage)");
   command->callback(

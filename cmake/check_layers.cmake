@@ -5,7 +5,7 @@
 # For each room: what its files may include, besides itself. Folders that are no rooms (tests, bench, plugins, python)
 # may include anything.
 # What users see, include/tetmend, is divided among the layers, and includes nothing but itself and the standard library.
-# Bindings include what users see, and nothing else of ours but platform, the charts of reports and the ranks of MPI.
+# Bindings include what users see, and nothing else of ours but platform, the charts of reports, the page of a call and the ranks of MPI.
 # platform alone includes headers of the system.
 cmake_minimum_required(VERSION 3.21)
 if(NOT IS_DIRECTORY "${SOURCE_DIR}")
@@ -28,7 +28,7 @@ set(below_face platform kernel trace search envelope ops contract schedule)
 set(below_report platform kernel trace search envelope figure explain ops contract schedule face)
 set(below_pieces platform kernel trace search envelope ops contract schedule face)
 set(below_mpi platform kernel trace search envelope ops contract schedule face pieces)
-set(below_bindings platform report mpi)
+set(below_bindings platform report explain mpi)
 set(below_viewer/mesh platform kernel envelope figure)
 set(below_viewer/debugger platform kernel trace search figure explain viewer/mesh)
 set(below_viewer/live platform kernel trace ops schedule face viewer/mesh viewer/debugger)

@@ -6,6 +6,7 @@
 #include "explain/call_facts.h"
 #include "explain/page_parts.h"
 #include "explain/page_text.h"
+#include "explain/question.h"
 #include "explain/stepper.h"
 #include "kernel/error.h"
 
@@ -30,19 +31,41 @@ Json origin_of(const TraceFile& file, const PageRequest& request) {
           {"calls", count_calls(file, request.range)}};
 }
 
-Json to_json(const Lesson& lesson) {
+/// With the answers to its questions, as the trace has them.
+Json to_json(const TraceFile& file, Replay& replay, const Lesson& lesson) {
   Json steps = Json::array();
   for (const LessonStep& step : lesson.steps) {
-    steps.push_back({{"at", step.at}, {"text", step.text}});
+    Json focus = Json::array();
+    for (const Focus f : step.focus) focus.push_back(kFocusNames[static_cast<std::size_t>(f)]);
+    if (focus.empty()) focus.push_back(kFocusNames[static_cast<std::size_t>(Focus::picture)]);
+    Json row = {{"at", step.at}, {"text", step.text}, {"focus", focus}};
+    if (step.ask) row["ask"] = to_json(answer(file, replay, step.at, *step.ask));
+    steps.push_back(std::move(row));
   }
   return {{"title", lesson.title}, {"steps", steps}};
+}
+
+/// To the list of pages, and to those before and after; nothing for a page by itself.
+std::string links_of(const PageRequest& request) {
+  std::string links;
+  const auto add = [&](const std::optional<PageLink>& page, std::string_view id,
+                       std::string_view text) {
+    if (!page) return;
+    links += fmt::format("<a id=\"{}\" href=\"{}\" title=\"{}\">{}</a>\n", id, escaped(page->file),
+                         escaped(page->title), text);
+  };
+  add(request.contents, "to-contents", "Contents");
+  add(request.previous, "to-previous", "&#8592;<span> Lesson before</span>");
+  add(request.next, "to-next", "<span>Next lesson </span>&#8594;");
+  if (links.empty()) return links;
+  return fmt::format("<nav class=\"links\" aria-label=\"Lessons\">\n{}</nav>\n", links);
 }
 
 std::string html_of(const TraceFile& file, Replay& replay, const PageRequest& request,
                     const RecordingRange& range) {
   Json data = record(file, replay, range);
   data["origin"] = origin_of(file, request);
-  if (request.lesson != nullptr) data["lesson"] = to_json(*request.lesson);
+  if (request.lesson != nullptr) data["lesson"] = to_json(file, replay, *request.lesson);
   if (range.deepest < depth_of(file, range)) data["deepest"] = range.deepest;
   const std::string about =
       fmt::format("{}: a run of {} on {}, schedule {}, step by step.", request.title,
@@ -50,6 +73,7 @@ std::string html_of(const TraceFile& file, Replay& replay, const PageRequest& re
   return fill_in(page_form(), {{"@TITLE@", escaped(request.title)},
                                {"@ABOUT@", escaped(about)},
                                {"@PROGRAM@", escaped(request.program)},
+                               {"@LINKS@", links_of(request)},
                                {"@STYLE@", std::string(page_style())},
                                {"@SCRIPT@", std::string(page_script())},
                                {"@RECORDING@", in_script(data)}});

@@ -17,7 +17,6 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <nlohmann/json.hpp>
 
 #include "contract/zoo.h"
 #include "explain/call_study.h"
@@ -178,7 +177,14 @@ class LessonWriter {
   const TraceFile& file() const { return file_; }
   const Call& call(std::uint32_t number) const { return file_.calls()[number]; }
 
-  void say(std::uint64_t at, std::string text) { steps_.push_back({at, std::move(text)}); }
+  void say(std::uint64_t at, std::string text, std::vector<Focus> focus) {
+    steps_.push_back({at, std::move(text), std::move(focus)});
+  }
+  /// At the last step.
+  void ask(Ask::Kind kind, std::string text) { steps_.back().ask = Ask{kind, std::move(text)}; }
+  void ask_for(std::string of, std::string text) {
+    steps_.back().ask = Ask{Ask::Kind::number, std::move(text), std::move(of)};
+  }
 
   std::string name(const Call& c) const { return std::string(file_.name(c.operator_name)); }
   std::string reason(const Call& c) const { return std::string(file_.reason(c)); }
@@ -277,34 +283,50 @@ void write_core(LessonWriter& lesson) {
   const std::uint64_t replaced = lesson.after(transformation, EventKind::replace_cavity);
   const auto core = lesson.around(replaced, 0, 1);
   const Cavity cavity = lesson.cavity(replaced);
-  lesson.say(0, fmt::format("{} tets share the edge 0 1: they are its shell, and it is their "
-                            "supporting edge. The vertices around it, {}, are the skirt polygon. "
-                            "Each of them makes a supporting face with the edge. The worst tet has "
-                            "quality {:.4f}.",
-                            ring.size(), join(ring), lesson.worst(0)));
+  lesson.say(0,
+             fmt::format("{} tets share the edge 0 1: they are its shell, and it is their "
+                         "supporting edge. The vertices around it, {}, are the skirt polygon. "
+                         "Each of them makes a supporting face with the edge. The worst tet has "
+                         "quality {:.4f}.",
+                         ring.size(), join(ring), lesson.worst(0)),
+             {Focus::picture});
   lesson.say(removal.events.begin + 1,
              "Edge removal is tried first. It fills the shell with tets that do not have the edge: "
              "the whole skirt polygon is triangulated, and each triangle makes one tet with vertex "
-             "0 and one with vertex 1.");
+             "0 and one with vertex 1.",
+             {Focus::picture, Focus::ring});
+  lesson.ask(Ask::Kind::accepted, "Will edge removal be accepted?");
   lesson.say(removal.events.end,
              fmt::format("The answer is \"{}\": {}. Every triangulation of the whole skirt polygon "
                          "has a tet that is no better than the worst of the shell.",
-                         removal.verdict_text(), lesson.reason(removal)));
+                         removal.verdict_text(), lesson.reason(removal)),
+             {Focus::ring});
   lesson.say(transformation.events.begin + 1,
              "Shell transformation has more to choose from: a part of the skirt polygon, the core, "
-             "may stay without triangles, and there the supporting edge stays.");
-  lesson.say(found, fmt::format("The best covering is found. Triangles cut off the skirt vertices "
-                                "{}; the core polygon is {}.",
-                                join(without(ring, core)), join(core)));
-  lesson.say(replaced, fmt::format("{} tets give way to {}. The supporting faces at {} are gone. "
-                                   "The edge is still there, with {} supporting faces instead of "
-                                   "{}: the shell is partially reduced.",
-                                   cavity.removed.size(), cavity.created.size(),
-                                   join(without(ring, core)), core.size(), ring.size()));
+             "may stay without triangles, and there the supporting edge stays.",
+             {Focus::ring});
+  lesson.ask(Ask::Kind::chord,
+             "Which chord cuts corners off? Pick one of the covering that is best.");
+  lesson.say(found,
+             fmt::format("The best covering is found. Triangles cut off the skirt vertices "
+                         "{}; the core polygon is {}.",
+                         join(without(ring, core)), join(core)),
+             {Focus::picture, Focus::ring});
+  lesson.ask_for("tets made",
+                 "Two new tets for each triangle, and one for the new side of the core: how many "
+                 "tets will be made?");
+  lesson.say(replaced,
+             fmt::format("{} tets give way to {}. The supporting faces at {} are gone. "
+                         "The edge is still there, with {} supporting faces instead of "
+                         "{}: the shell is partially reduced.",
+                         cavity.removed.size(), cavity.created.size(), join(without(ring, core)),
+                         core.size(), ring.size()),
+             {Focus::picture, Focus::ring});
   lesson.say(transformation.events.end,
              fmt::format("The quality vector is better, so the change is kept: {}. The recursion "
                          "goes on from here: see the next lesson.",
-                         qualities(transformation)));
+                         qualities(transformation)),
+             {Focus::picture, Focus::ring});
 }
 
 void write_two_shells(LessonWriter& lesson) {
@@ -327,39 +349,56 @@ void write_two_shells(LessonWriter& lesson) {
   const auto reduced = lesson.around(first.events.end, 0, 1);
   const auto last = lesson.around(inner.events.end, 0, 1);
 
-  lesson.say(0, fmt::format("Two shells that overlap, as in Figure 5 of the paper: that of the "
-                            "edge 0 1 with {} tets, and that of the edge {} {}. The edge 0 1 is to "
-                            "be removed: the worst tet has quality {:.4f}.",
-                            ring.size(), a, b, lesson.worst(0)));
+  lesson.say(0,
+             fmt::format("Two shells that overlap, as in Figure 5 of the paper: that of the "
+                         "edge 0 1 with {} tets, and that of the edge {} {}. The edge 0 1 is to "
+                         "be removed: the worst tet has quality {:.4f}.",
+                         ring.size(), a, b, lesson.worst(0)),
+             {Focus::picture});
   lesson.say(root.events.begin + 1,
-             "The recursive shell transformation of the edge 0 1 begins, on level 0.");
-  lesson.say(first.events.begin + 1, "First it transforms the shell of 0 1 by itself.");
+             "The recursive shell transformation of the edge 0 1 begins, on level 0.",
+             {Focus::algorithm});
+  lesson.ask(Ask::Kind::line, "Which line of Algorithm 4 comes next?");
+  lesson.say(first.events.begin + 1, "First it transforms the shell of 0 1 by itself.",
+             {Focus::ring});
+  lesson.ask(Ask::Kind::chord, "One chord will cut a corner off. Which?");
   lesson.say(first.events.end,
              fmt::format("That reduces the shell from {} tets to {}: the supporting face at {} is "
                          "gone, the core {} stays, and so does the edge.",
-                         ring.size(), reduced.size(), join(without(ring, reduced)), join(reduced)));
+                         ring.size(), reduced.size(), join(without(ring, reduced)), join(reduced)),
+             {Focus::picture, Focus::ring});
   lesson.say(inner.events.begin + 1,
              fmt::format("A supporting face goes when one of its link edges does. The face of 0 1 "
                          "and {0} has the link edge {1} {0}, at which the shell is not convex. The "
                          "procedure calls itself for that edge, on level 1.",
-                         b, a));
+                         b, a),
+             {Focus::picture, Focus::algorithm});
   lesson.say(second.events.begin + 1,
              fmt::format("The shell of {} {} has {} tets. It is transformed in the same way.", a, b,
-                         lesson.around(second.events.begin, a, b).size()));
+                         lesson.around(second.events.begin, a, b).size()),
+             {Focus::picture, Focus::ring});
+  lesson.ask(Ask::Kind::accepted, "Will this transformation be accepted?");
   lesson.say(inner.events.end,
              fmt::format("It is fully reduced: {0} {1} is gone, and with it the supporting face at "
                          "{1}. The shell of 0 1 has {2} tets now: {3}.",
-                         a, b, last.size(), qualities(second)));
+                         a, b, last.size(), qualities(second)),
+             {Focus::picture, Focus::tree});
   lesson.say(third.events.begin + 1,
-             "Back on level 0, the shell of 0 1 is smaller than before and transformed again.");
+             "Back on level 0, the shell of 0 1 is smaller than before and transformed again.",
+             {Focus::picture, Focus::ring});
+  lesson.ask_for(
+      "tets made",
+      fmt::format("How many tets will take the place of the {} around the edge?", last.size()));
   lesson.say(
       third.events.end,
       fmt::format("With {} tets around it the edge 0 1 gives way to {}: a 3-2 flip.", last.size(),
-                  lesson.cavity(lesson.after(third, EventKind::replace_cavity)).created.size()));
+                  lesson.cavity(lesson.after(third, EventKind::replace_cavity)).created.size()),
+      {Focus::picture, Focus::ring});
   lesson.say(root.events.end,
              fmt::format("The quality vector of all that changed is compared once more for the "
                          "whole recursion, and it is better: {}.",
-                         qualities(root)));
+                         qualities(root)),
+             {Focus::picture, Focus::tree});
 }
 
 /// What there is to say about each reason to refuse.
@@ -367,24 +406,30 @@ struct Refusal {
   Verdict verdict;
   std::string_view before;  ///< at the target
   std::string_view after;   ///< once it was refused
+  std::vector<Focus> focus = {Focus::picture, Focus::ring};
 };
 
-constexpr std::array<Refusal, 7> kRefusals = {{
+const std::array<Refusal, 7> kRefusals = {{
     {Verdict::not_applicable, "Five tets share the edge.",
      "A 3-2 flip is for edges of three tets only."},
-    {Verdict::constrained, "The edge lies on the boundary.",
+    {Verdict::constrained,
+     "The edge lies on the boundary.",
      "The surface must stay as it is. Constrained faces and edges inside the mesh are kept in the "
-     "same way."},
+     "same way.",
+     {Focus::picture}},
     {Verdict::no_improvement, "The shell of the edge is good already.",
      "All coverings of the shell were searched."},
     {Verdict::inverted, "Three tets share the edge, but it passes beside the triangle of its ring.",
      "One of the two new tets would be turned inside out."},
-    {Verdict::depth_spent, "The operator may not call itself here: its parameter max_level is 0.",
-     "Its own shell alone cannot be improved, and the shells beside it are not tried."},
+    {Verdict::depth_spent,
+     "The operator may not call itself here: its parameter max_level is 0.",
+     "Its own shell alone cannot be improved, and the shells beside it are not tried.",
+     {Focus::algorithm}},
     {Verdict::budget_spent,
      "The same edge. The operator may call itself, but has one shell transformation to spend: its "
      "parameter budget is 1.",
-     "It was spent on its own shell, without result. For the link edges nothing was left."},
+     "It was spent on its own shell, without result. For the link edges nothing was left.",
+     {Focus::picture, Focus::tree}},
     {Verdict::deferred,
      "Threads share a mesh by its vertices, and here one vertex of the shell belongs to another.",
      "This is no answer yet: the attempt is made again when the mesh is divided in another way."},
@@ -393,15 +438,24 @@ constexpr std::array<Refusal, 7> kRefusals = {{
 void write_refusals(LessonWriter& lesson) {
   lesson.say(0,
              "Three small pieces, and one attempt for each reason to refuse. A refusal leaves no "
-             "trace in the mesh.");
+             "trace in the mesh.",
+             {Focus::picture});
   for (const Refusal& refusal : kRefusals) {
     const Call& call = lesson.call(lesson.find(
         0, [&](const Call& c) { return c.depth == 0 && c.verdict == refusal.verdict; }));
     lesson.say(call.events.begin + 1,
                fmt::format("{} at the edge {} {}. {}", lesson.name(call), call.target()[0].index(),
-                           call.target()[1].index(), refusal.before));
-    lesson.say(call.events.end, fmt::format("The answer is \"{}\": {}. {}", call.verdict_text(),
-                                            lesson.reason(call), refusal.after));
+                           call.target()[1].index(), refusal.before),
+               refusal.focus);
+    if (refusal.verdict == Verdict::no_improvement) {
+      lesson.ask_for("triangulations", "How many triangulations has a ring of five corners?");
+    } else if (refusal.verdict == Verdict::depth_spent) {
+      lesson.ask(Ask::Kind::line, "Which line of Algorithm 4 comes next?");
+    }
+    lesson.say(call.events.end,
+               fmt::format("The answer is \"{}\": {}. {}", call.verdict_text(), lesson.reason(call),
+                           refusal.after),
+               {Focus::picture, Focus::algorithm});
   }
 }
 
@@ -433,11 +487,16 @@ void write_tables(LessonWriter& lesson) {
   const std::uint64_t found = lesson.after(call, EventKind::candidate_found);
   const std::uint64_t replaced = lesson.after(call, EventKind::replace_cavity);
   const std::uint32_t apex = tables.k(first, last);
-  lesson.say(0, fmt::format("{} tets share the edge a b, and its skirt polygon has {} corners. The "
-                            "edge passes close to a side of it: the worst tet has quality {:.4f}. "
-                            "How many ways are there to fill the shell without this edge? The "
-                            "tables of Algorithms 1 and 2 find the best without trying all.",
-                            ring.size(), ring.size(), tables.picture.floor));
+  lesson.say(0,
+             fmt::format("{} tets share the edge a b, and its skirt polygon has {} corners. The "
+                         "edge passes close to a side of it: the worst tet has quality {:.4f}. "
+                         "How many ways are there to fill the shell without this edge? The "
+                         "tables of Algorithms 1 and 2 find the best without trying all.",
+                         ring.size(), ring.size(), tables.picture.floor),
+             {Focus::picture, Focus::ring});
+  lesson.ask_for(
+      "triangulations",
+      fmt::format("How many triangulations has a polygon with {} corners?", ring.size()));
   lesson.say(
       call.events.begin + 1,
       fmt::format("A pocket goes along the polygon from p_i on to p_j, and the chord p_i p_j "
@@ -445,33 +504,44 @@ void write_tables(LessonWriter& lesson) {
                   "M_k(i, j) the third corner of the triangle at the chord. A side is an "
                   "empty pocket: nothing is worse, so infinity. The smallest true pockets "
                   "have one triangle: from {} to {} the third corner can only be {}.",
-                  first, third, second));
+                  first, third, second),
+      {Focus::ring, Focus::tables});
   lesson.say(found,
              fmt::format("The tables are filled, diagonal by diagonal: each larger pocket is a "
                          "triangle and two smaller ones that are known. Algorithm 1 fills the half "
                          "above the diagonal, which has the pocket from {} to {}: the whole "
                          "polygon. Algorithm 2 fills both halves, as a pocket may pass from the "
                          "last corner on to the first. M_q of the whole polygon is {:.4f}.",
-                         first, last, tables.q(first, last)));
+                         first, last, tables.q(first, last)),
+             {Focus::tables});
+  lesson.ask_for(
+      fmt::format("M_k {} {}", first, last),
+      fmt::format("Read it off M_k: what is the third corner of the triangle at {} and {}?", first,
+                  last));
   lesson.say(replaced,
              fmt::format("M_k leads back to the triangles. The whole polygon, from {0} to {1}, has "
                          "the third corner {2}: a triangle {0} {2} {1}. What it leaves are the "
                          "pockets from {0} to {2} and from {2} to {1}, and so on. Each triangle "
                          "gives a tet with a and one with b: {3} tets instead of {4}.",
-                         first, last, apex, lesson.cavity(replaced).created.size(), ring.size()));
+                         first, last, apex, lesson.cavity(replaced).created.size(), ring.size()),
+             {Focus::picture, Focus::ring});
   lesson.say(call.events.end,
              fmt::format("No core was better than that, so the edge is gone: full reduction. {} "
                          "Algorithm 3 has come to its end, line 8.",
-                         capital(qualities(call)) + "."));
+                         capital(qualities(call)) + "."),
+             {Focus::ring, Focus::algorithm});
 }
 
 void write_reconnection(LessonWriter& lesson) {
   const TraceFile& file = lesson.file();
   lesson.say(0,
              "Three pieces with bad tets: the two shells of the second lesson, two flat tets that "
-             "share a face, and a flat tet by itself. Algorithm 5 wants all of them gone.");
+             "share a face, and a flat tet by itself. Algorithm 5 wants all of them gone.",
+             {Focus::picture});
+  lesson.ask_for("bad tets", "Bad tets are red: how many are there?");
   const auto begins = file.passes().front().events.begin + 1;
-  lesson.say(begins, "The bad tets are queued, those of lowest quality first.");
+  lesson.say(begins, "The bad tets are queued, those of lowest quality first.", {Focus::algorithm});
+  lesson.ask(Ask::Kind::line, "Which line of Algorithm 5 comes next?");
   for (std::size_t i = 0; i < file.visits().size(); ++i) {
     const Visit& visit = file.visits()[i];
     std::vector<std::uint32_t> corners;
@@ -487,13 +557,15 @@ void write_reconnection(LessonWriter& lesson) {
     }
     lesson.say(visit.events.begin + 1,
                fmt::format("The first tet of the queue has the vertices {} and quality {:.4f}. {}",
-                           join(corners), visit.quality, then));
+                           join(corners), visit.quality, then),
+               {Focus::picture, Focus::algorithm});
     for (std::uint32_t c = visit.first_call; c < visit.last_call; c = lesson.call(c).subtree_end) {
       const Call& call = lesson.call(c);
       if (call.accepted()) {
         lesson.say(call.events.end,
                    fmt::format("It works: {}. The tet is gone, so nothing else is tried at it.",
-                               qualities(call)));
+                               qualities(call)),
+                   {Focus::picture, Focus::tree});
       }
     }
   }
@@ -502,7 +574,8 @@ void write_reconnection(LessonWriter& lesson) {
              fmt::format("The queue is empty. {} bad tet{} left, of quality {:.4f}: its edges and "
                          "faces are those of the boundary, and local reconnection keeps the "
                          "boundary. Other operators have to help there, or none can.",
-                         end.n_bad, end.n_bad == 1 ? " is" : "s are", end.q_worst));
+                         end.n_bad, end.n_bad == 1 ? " is" : "s are", end.q_worst),
+             {Focus::picture, Focus::tree});
 }
 
 void write_smoothing(LessonWriter& lesson) {
@@ -512,50 +585,66 @@ void write_smoothing(LessonWriter& lesson) {
              fmt::format("{} tets share vertex 6: its ball. The vertex is not where it should be, "
                          "and the worst tet has quality {:.4f}. Nothing needs to be connected in "
                          "another way: it is enough to move the vertex.",
-                         lesson.file().initial_mesh().tet_count(), lesson.worst(0)));
+                         lesson.file().initial_mesh().tet_count(), lesson.worst(0)),
+             {Focus::picture});
   lesson.say(
       call.events.begin + 1,
       "Smoothing first tries the mean of the neighbours, which costs next to nothing. If the "
       "worst tet of the ball is better there, the vertex begins from there. If a tet is bad "
       "still, it climbs: in each step it moves in the direction in which the worst tets "
-      "become better together, until there is none.");
+      "become better together, until there is none.",
+      {Focus::picture, Focus::algorithm});
+  lesson.ask(Ask::Kind::accepted, "Will the vertex find a better place?");
   lesson.say(lesson.after(call, EventKind::candidate_found),
-             "A better place is found. All other vertices stay where they are.");
+             "A better place is found. All other vertices stay where they are.", {Focus::picture});
   lesson.say(moved,
              fmt::format("The vertex has moved, and all {} tets of its ball with it. Compare "
                          "Before and After.",
-                         lesson.cavity(moved).created.size()));
-  lesson.say(call.events.end, fmt::format("The ball is better as a whole, so the change stays: {}.",
-                                          qualities(call)));
+                         lesson.cavity(moved).created.size()),
+             {Focus::picture});
+  lesson.say(
+      call.events.end,
+      fmt::format("The ball is better as a whole, so the change stays: {}.", qualities(call)),
+      {Focus::picture, Focus::tree});
 }
 
 void write_cavity(LessonWriter& lesson) {
   const Call& call = lesson.call(0);
   const std::uint64_t replaced = lesson.after(call, EventKind::replace_cavity);
   const Cavity cavity = lesson.cavity(replaced);
-  lesson.say(0, fmt::format("{} tets between {} points. Some places have too few vertices for good "
-                            "tets, however they are connected. A new vertex may help: where, and "
-                            "which tets must give way to it?",
-                            lesson.file().initial_mesh().tet_count(),
-                            lesson.file().initial_mesh().vertex_count()));
+  lesson.say(0,
+             fmt::format("{} tets between {} points. Some places have too few vertices for good "
+                         "tets, however they are connected. A new vertex may help: where, and "
+                         "which tets must give way to it?",
+                         lesson.file().initial_mesh().tet_count(),
+                         lesson.file().initial_mesh().vertex_count()),
+             {Focus::picture});
   lesson.say(
       call.events.begin + 1,
       fmt::format("Insertion by cavity works on the tet {}. The centroids of the tet, of its "
                   "faces and of its edges are tried as places for a vertex. At each, the "
                   "cavity grows: the tet itself, then those neighbours whose removal makes "
                   "the worst of the new tets better.",
-                  numbers(call)));
+                  numbers(call)),
+      {Focus::picture, Focus::algorithm});
+  lesson.ask(Ask::Kind::accepted, "Will the new vertex be accepted?");
   lesson.say(lesson.after(call, EventKind::candidate_found),
              "A place is found that promises enough. The vertex has been moved to where the worst "
-             "new tet is best, and the cavity was chosen once more for that place.");
+             "new tet is best, and the cavity was chosen once more for that place.",
+             {Focus::picture});
+  lesson.ask_for("tets made",
+                 fmt::format("{} tets will be taken out. How many will there be in their place?",
+                             cavity.removed.size()));
   lesson.say(
       replaced,
       fmt::format("{} tets are taken out. The outer faces of the cavity stay, and each of them "
                   "makes a tet with the new vertex: {} tets.",
-                  cavity.removed.size(), cavity.created.size()));
+                  cavity.removed.size(), cavity.created.size()),
+      {Focus::picture});
   lesson.say(
       call.events.end,
-      fmt::format("There are more tets than before, but they are better: {}.", qualities(call)));
+      fmt::format("There are more tets than before, but they are better: {}.", qualities(call)),
+      {Focus::picture, Focus::tree});
 }
 
 void write_polyhedron(LessonWriter& lesson) {
@@ -568,23 +657,29 @@ void write_polyhedron(LessonWriter& lesson) {
   lesson.say(0,
              "The mesh of the lesson before, without a new vertex. A shell is the neighbourhood of "
              "an edge, and a search over it finds the best covering. What if no edge has a "
-             "neighbourhood that helps?");
+             "neighbourhood that helps?",
+             {Focus::picture});
   lesson.say(call.events.begin + 1,
              fmt::format("Small polyhedron reconnection begins with the tet {}. It adds a vertex, "
                          "with all tets between its vertices, and looks for the best of all "
                          "tetrahedralisations of the polyhedron so far. If none is better, it adds "
                          "the next vertex.",
-                         numbers(call)));
+                         numbers(call)),
+             {Focus::picture, Focus::algorithm});
+  lesson.ask(Ask::Kind::accepted, "Will it find a better way to fill one?");
   lesson.say(
       replaced,
       fmt::format("With {} vertices there is a better one. {} tets give way to {} that fill "
                   "the same polyhedron: its outer faces and its vertices are what they were.",
-                  corners.size(), cavity.removed.size(), cavity.created.size()));
+                  corners.size(), cavity.removed.size(), cavity.created.size()),
+      {Focus::picture});
+  lesson.ask_for("bad tets", "Bad tets are red: how many does the mesh have now?");
   lesson.say(call.events.end,
              fmt::format("The change stays: {}. The price is time: the search grows "
                          "fast with the number of vertices, so it is for the worst "
                          "tets, after everything else.",
-                         qualities(call)));
+                         qualities(call)),
+             {Focus::picture, Focus::tree});
 }
 
 // --- runs ----------------------------------------------------------------------------------------
@@ -709,14 +804,11 @@ void make_lesson(const Recipe& recipe, const std::filesystem::path& folder) {
   const TraceFile trace(file("trace"));
   LessonWriter lesson(trace);
   recipe.write(lesson);
-  nlohmann::ordered_json json = {{"title", recipe.title},
-                                 {"mesh", file("mesh").filename().string()},
-                                 {"trace", file("trace").filename().string()},
-                                 {"steps", nlohmann::ordered_json::array()}};
-  for (const LessonStep& step : lesson.steps()) {
-    json["steps"].push_back({{"at", step.at}, {"text", step.text}});
-  }
-  write_text(file("json"), json.dump(2) + "\n");
+  write_text(file("json"), lesson_text({.title = std::string(recipe.title),
+                                        .mesh = file("mesh"),
+                                        .trace = file("trace"),
+                                        .steps = lesson.steps()},
+                                       folder));
 }
 
 }  // namespace

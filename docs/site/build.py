@@ -37,6 +37,8 @@ NAVIGATION: dict[str, list[str]] = {
     "reference": ["command-line", "formats", "cpp", "python-reference", "c-reference", "fortran-reference",
                   "dependencies", "changes"],
 }
+# Pages that are whole by themselves, and are copied as they are.
+WHOLE = Path("docs/lectures")
 # Files outside of docs/ that are pages of the site.
 OUTSIDE = {"CONTRIBUTING.md": "contributing.md", "CHANGELOG.md": "changes.md", "README.md": "index.md"}
 # Pages that are not in docs/: what they say is said by the program, the headers and the bindings.
@@ -76,6 +78,8 @@ def with_links_of_the_site(text: str, source: Path) -> str:
         if path.as_posix() not in GENERATED and not (ROOT / path).exists():
             raise Failure(f"{source}: there is no {target}")
         place = place_of(path)
+        if path.is_relative_to(WHOLE):  # Sphinx would take it for a file to be saved
+            return f'<a href="{os.path.relpath(place, here.parent)}">{words}</a>'
         if place is None:
             return words if not image else found[0]
         return f"{image}[{words}]({os.path.relpath(place, here.parent)}{anchor or ''})"
@@ -89,7 +93,7 @@ def with_links_of_the_site(text: str, source: Path) -> str:
 def gather(pages: Path) -> None:
     """Copies docs/ and the pages outside of it."""
     sources = [path.relative_to(ROOT) for path in sorted((ROOT / "docs").rglob("*"))
-               if path.is_file() and HERE not in path.parents]
+               if path.is_file() and HERE not in path.parents and ROOT / WHOLE not in path.parents]
     sources += [Path(name) for name in OUTSIDE if name != "README.md"]
     for source in sources:
         place = pages / place_of(source)
@@ -327,6 +331,7 @@ def build(output: Path, program: Path) -> int:
         add_navigation(pages)
         run_sphinx(pages, work / "html", work)
         complete_theme(work / "html" / "_static")
+        shutil.copytree(ROOT / WHOLE, work / "html" / WHOLE.name)
         for unused in ["objects.inv", ".buildinfo"]:
             (work / "html" / unused).unlink(missing_ok=True)
         if output.exists():

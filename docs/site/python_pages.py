@@ -23,7 +23,7 @@ SECTIONS = {
     "Meshes and files": ["Mesh", "Group", "load", "save", "formats"],
     "Figures and checks": ["quality", "Quality", "BadTet", "check", "Check", "Fact"],
     "Walks, edits, operators one by one": ["TetMesh", "Edit", "Call", "Ring", "Look", "PassDone"],
-    "Recorded runs": ["Trace"],
+    "Recorded runs": ["Trace", "TracePage"],
     "Schedules and operators": ["schedules", "Schedule", "operators", "Operator", "Parameter"],
     "Errors": ["Error", "OptionError"],
 }

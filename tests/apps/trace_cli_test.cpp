@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Traces from the command line: recording, filters, exports, damaged files.
+#include <algorithm>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -12,6 +13,7 @@
 #include "tests/apps/program.h"
 #include "tests/support/text.h"
 #include "trace/call_tree.h"
+#include "trace/lesson.h"
 #include "trace/trace_file.h"
 
 using namespace tetmend;
@@ -185,6 +187,46 @@ TEST_CASE("a page without a call is of the whole trace, and one of call 0 is not
   const Outcome wrong = bench.look({"--html", "x", "-o", page});
   CHECK(wrong.status == 2);
   CHECK(contains(wrong.err, "--html: 'x' is no number of a call"));
+}
+
+TEST_CASE(
+    "a lesson is made of a call of a run, told, and becomes a page that answers its questions") {
+  Bench bench;
+  REQUIRE(bench.record().status == 0);
+  const std::string json = (bench.folder / "run.json").string();
+  const std::vector<std::string> make = {"lesson", "--make", bench.trace, "--call", "3"};
+  const auto with = [&](std::vector<std::string> more) {
+    std::vector<std::string> all = make;
+    all.insert(all.end(), more.begin(), more.end());
+    return run_program(all);
+  };
+  REQUIRE(with({"-o", json, "--title", "Of mine"}).status == 0);
+  const Lesson lesson = read_lesson(json);
+  CHECK(lesson.title == "Of mine");
+  CHECK(lesson.call == 3);
+  CHECK(std::ranges::count_if(lesson.steps,
+                              [](const LessonStep& step) { return step.ask.has_value(); }) == 3);
+  const Outcome told = run_program({"lesson", json});
+  REQUIRE(told.status == 0);
+  for (const LessonStep& step : lesson.steps) CHECK(contains(told.out, step.text));
+  const std::string page = (bench.folder / "page.html").string();
+  REQUIRE(run_program({"lesson", json, "--html", "-o", page}).status == 0);
+  CHECK(contains(read_text(page), "\"answer\":"));
+
+  const Outcome beyond =
+      run_program({"lesson", "--make", bench.trace, "--call", "4000000", "-o", json});
+  CHECK(beyond.status == 1);
+  CHECK(contains(beyond.err, "there is no call 4000000"));
+  std::filesystem::create_directory(bench.folder / "below");
+  const Outcome below = with({"-o", (bench.folder / "below/x.json").string()});
+  CHECK(below.status == 1);
+  CHECK(contains(below.err, "a lesson lies beside its trace, or above"));
+  CHECK(run_program({"lesson", "--make", bench.trace, "-o", json}).status == 2);
+  CHECK(with({"-o", bench.trace}).status == 2);
+  CHECK(with({}).status == 2);
+  CHECK(with({"-o", json, "--html"}).status == 2);
+  CHECK(run_program({"lesson", "--call", "3"}).status == 2);
+  CHECK(run_program({"lesson", "--title", "x"}).status == 2);
 }
 
 TEST_CASE("the history of a tet is told by its number in the file that the run wrote") {

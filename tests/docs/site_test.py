@@ -82,7 +82,8 @@ class Page(HTMLParser):
 
 @cache
 def pages() -> dict[str, Page]:
-    return {file.relative_to(SITE).as_posix(): Page(file) for file in sorted(SITE.rglob("*.html"))}
+    """Without those of the lecture, which are made elsewhere and have a test of their own."""
+    return {file.relative_to(SITE).as_posix(): Page(file) for file in sorted(SITE.rglob("*.html")) if file.parent != SITE / "lectures"}
 
 
 def target(page: str, link: str) -> tuple[str, str]:
@@ -134,6 +135,11 @@ class Files(unittest.TestCase):
                      for file in (SOURCE / "docs").rglob("*.md")}
         self.assertGreater(len(documents), 40)
         self.assertEqual(documents - set(pages()), set())
+
+    def test_the_lecture_is_there_as_it_is_and_the_first_page_leads_to_it(self) -> None:
+        for page in (SOURCE / "docs/lectures").iterdir():
+            self.assertEqual((SITE / "lectures" / page.name).read_bytes(), page.read_bytes())
+        self.assertIn("lectures/index.html", pages()["index.html"].links_of_text)
 
     def test_each_header_of_the_library_has_a_page_with_what_it_declares(self) -> None:
         for header in (SOURCE / "include/tetmend").glob("*.h"):

@@ -5,10 +5,12 @@ import ast
 import concurrent.futures
 import copy
 import doctest
+import html
 import importlib
 import json
 import os
 import pickle
+import re
 import signal
 import subprocess
 import threading
@@ -567,6 +569,33 @@ def test_a_trace_tells_what_the_command_line_tells(tmp_path, materials, command_
         next(trace.events(trace.event_count + 1))
     with pytest.raises(ValueError):
         tetmend.Trace(MATERIALS)
+
+
+def test_a_trace_shows_itself_and_its_calls_in_a_notebook(tmp_path, materials, command_line):
+    file = tmp_path / "run.trace"
+    tetmend.improve(materials, trace=file, set={"max_rounds": 1})
+    trace = tetmend.Trace(file)
+    table = trace._repr_html_()
+    counts = {}
+    for row in re.findall(r"<tr><td>(.*?)</td></tr>", table):
+        name, *numbers = row.split("</td><td>")
+        counts[name] = [int(number.replace(",", "")) for number in numbers[:4]]
+    assert sum(calls for calls, *_ in counts.values()) == trace.call_count
+    assert all(calls == good + undone + refused for calls, good, undone, refused in counts.values())
+    assert sum(good for _, good, *_ in counts.values()) == sum(call["for_good"] for call in trace.calls())
+    page = trace.show(call=17, height=500)
+    lesson = tmp_path / "run.json"
+    command_line("lesson", "--make", file, "--call", 17, "-o", lesson)
+    assert page.html == command_line("lesson", lesson, "--html")
+    frame = page._repr_html_()
+    assert "height: 500px" in frame
+    assert html.unescape(re.search(r'srcdoc="([^"]*)"', frame).group(1)) == page.html
+    page.save(tmp_path / "call.html")
+    assert (tmp_path / "call.html").read_text() == page.html
+    with pytest.raises(tetmend.Error, match=f"there is no call {trace.call_count}"):
+        trace.show(call=trace.call_count)
+    with pytest.raises(tetmend.Error, match="call is -1"):
+        trace.show(call=-1)
 
 
 def test_a_trace_has_a_ledger_in_which_each_call_is_once(tmp_path, command_line):

@@ -2,6 +2,7 @@
 #include "trace/lesson.h"
 
 #include <string>
+#include <vector>
 
 #include <doctest/doctest.h>
 
@@ -80,6 +81,62 @@ TEST_CASE("a lesson of a stranger names no file of others, and its message is sh
     CHECK(message.find("a.json: is no lesson: ") != std::string::npos);
     CHECK(message.size() < 500);
   }
+}
+
+TEST_CASE(
+    "steps name what they speak of and ask questions; what there is none of is refused by name") {
+  const TempFolder folder;
+  const auto read = [&](const std::string& step) {
+    write_text(folder / "a.json", with_steps(R"([{"at": 1, "text": "t", )" + step + "}]"));
+    return read_lesson(folder / "a.json").steps.front();
+  };
+  const LessonStep step = read(
+      R"("focus": ["ring", "tables"], "ask": {"kind": "number", "text": "How many?", "of": "degree", "within": 0.5})");
+  CHECK(step.focus == std::vector{Focus::ring, Focus::tables});
+  REQUIRE(step.ask);
+  CHECK(step.ask->kind == Ask::Kind::number);
+  CHECK(step.ask->of == "degree");
+  CHECK(step.ask->within == 0.5);
+  const auto complaint = [&](const std::string& text) -> std::string {
+    try {
+      read(text);
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return "";
+  };
+  CHECK(complaint(R"("focus": ["sheep"])").find("there is no focus 'sheep'") != std::string::npos);
+  CHECK(complaint(R"("ask": {"kind": "sheep", "text": ""})").find("no kind of question 'sheep'") !=
+        std::string::npos);
+  CHECK(complaint(R"("ask": {"kind": "line"})").find("'text'") != std::string::npos);
+  CHECK(complaint(R"("ask": {"kind": "number", "text": ""})").find("'of'") != std::string::npos);
+  CHECK(complaint(R"("ask": {"kind": "number", "text": "", "of": "degree", "within": -1})")
+            .find("'within' is below 0") != std::string::npos);
+}
+
+TEST_CASE("a lesson may be about one call, and without its mesh") {
+  const TempFolder folder;
+  const std::string rest = R"(, "steps": [{"at": 0, "text": ""}]})";
+  write_text(folder / "a.json", R"({"title": "a", "trace": "t.trace", "call": 17)" + rest);
+  CHECK(read_lesson(folder / "a.json").call == 17);
+  CHECK(read_lesson(folder / "a.json").mesh.empty());
+  for (const char* call : {"-1", "1.5", "\"x\"", "4294967295", "99999999999999999999"}) {
+    CAPTURE(call);
+    write_text(folder / "a.json",
+               R"({"title": "a", "trace": "t.trace", "call": )" + std::string(call) + rest);
+    CHECK_THROWS_WITH_AS(read_lesson(folder / "a.json"), doctest::Contains("no number of a call"),
+                         Error);
+  }
+}
+
+TEST_CASE("the lessons of a folder come by the number that they begin with") {
+  const TempFolder folder;
+  for (const char* name : {"10-b.json", "2-a.json", "x.json", "1-c.json"}) {
+    write_text(folder / name, "");
+  }
+  std::vector<std::string> names;
+  for (const auto& lesson : list_lessons(folder / "")) names.push_back(lesson.filename().string());
+  CHECK(names == std::vector<std::string>{"1-c.json", "2-a.json", "10-b.json", "x.json"});
 }
 
 TEST_CASE("the lessons of a folder are its JSON files, by name") {

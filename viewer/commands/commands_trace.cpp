@@ -188,10 +188,12 @@ json to_lesson_step(Session& s, const json&) {
   const auto now = step_at(*debugger.lesson(), debugger.position());
   std::size_t next = now ? *now + 1 : 0;
   if (Where == Direction::back) {
-    if (!now) throw Error("this is the beginning of the lesson");
-    const bool is_on_it = steps[*now].at == debugger.position();
-    if (is_on_it && *now == 0) throw Error("this is the beginning of the lesson");
-    next = is_on_it ? *now - 1 : *now;
+    // Several steps may be at one position: the window shows them together.
+    const auto before = std::find_if(steps.rbegin(), steps.rend(), [&](const LessonStep& step) {
+      return step.at < debugger.position();
+    });
+    if (before == steps.rend()) throw Error("this is the beginning of the lesson");
+    next = static_cast<std::size_t>(steps.rend() - before) - 1;
   }
   if (next >= steps.size()) throw Error("this is the end of the lesson");
   debugger.seek(steps[next].at);

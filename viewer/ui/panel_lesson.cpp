@@ -17,7 +17,12 @@ void draw_lesson_panel(Session& session) {
   if (ImGui::Button("next")) run_from_window(find_command("next_lesson_step"), session);
   ImGui::SameLine();
   ImGui::TextDisabled("step %zu of %zu", step ? *step + 1 : 0, lesson.steps.size());
-  if (step) wrapped_text(lesson.steps[*step].text);
+  if (!step) return;
+  for (const LessonStep& told : lesson.steps) {  // all that are at this position
+    if (told.at != lesson.steps[*step].at) continue;
+    wrapped_text(told.text);
+    if (told.ask) wrapped_text(told.ask->text);
+  }
 }
 
 }  // namespace tetmend::viewer::ui

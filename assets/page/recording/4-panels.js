@@ -189,7 +189,7 @@ function tableText(shell, filled, here, isFilling) {
   const name = (i) => shell.ring[i];
   if (!isFilling) return `Filled. Bold: better than the old tets, whose worst quality is ${four(shell.floor)}.`;
   const total = cellsOf(shell).length;
-  if (!here) return `A row and a column for each corner of the ring. The pocket from i on to j is triangulated in the best way. Step into the table, or over it: ${total} cells.`;
+  if (!here) return `A row and a column for each corner of the ring. The pocket from i on to j is triangulated in the best way. ${isOnStage() ? "" : "Step into the table, or over it: "}${total} cells.`;
   const choices = choicesOf(shell, here).map(({k, quality}) => `k = ${name(k)} gives ${quality > 0 ? four(quality) : "none"}`);
   const best = tableApex(shell, here.i, here.j);
   const result = best < shell.ring.length ? `M_q = ${four(tableQuality(shell, here.i, here.j))}, M_k = ${name(best)}.`
@@ -250,10 +250,21 @@ function rowsOfTree(step) {
   return rows;
 }
 
+const MOST_ON_STAGE = 9;  // rows
+
+/** All, or on the stage of a lesson those around the call at hand. */
+function rowsInSight(step) {
+  const rows = rowsOfTree(step);
+  if (!isOnStage() || rows.length <= MOST_ON_STAGE) return rows;
+  const here = Math.max(rows.findIndex(({call}) => call.number === step.call), 0);
+  const first = Math.min(Math.max(here - (MOST_ON_STAGE >> 1), 0), rows.length - MOST_ON_STAGE);
+  return rows.slice(first, first + MOST_ON_STAGE);
+}
+
 function showTree(step, enter, redraw) {
   const least = Math.min(...[...calls.values()].map((call) => call.depth));
   const here = step.call;
-  const rows = rowsOfTree(step).map(({call, hasCalls, isOpen}) => {
+  const rows = rowsInSight(step).map(({call, hasCalls, isOpen}) => {
     const outcome = outcomeOf(call, step.position);
     const fold = hasCalls ? make("button", {type: "button", class: "fold", "aria-expanded": String(isOpen), "aria-label": `calls in call ${call.number}`,
       onclick: () => { folds.set(call.number, !isOpen); redraw(); }}, isOpen ? "\u25be" : "\u25b8") : make("span", {class: "fold", style: "display: inline-block; min-width: 1.5rem"});
@@ -265,7 +276,7 @@ function showTree(step, enter, redraw) {
       first, ...[call.degrees, call.qualities].map((text) => make("td", {}, isDone(call, step.position) ? text : text.split(" -> ")[0])));
   });
   byId("tree").replaceChildren(make("thead", {}, make("tr", {}, make("th", {}, "level, operator, target"), make("th", {}, "degree"), make("th", {}, "worst q"))), make("tbody", {}, ...rows));
-  const seen = new Set(rowsOfTree(step).map(({call}) => outcomeOf(call, step.position)));
+  const seen = new Set(rowsInSight(step).map(({call}) => outcomeOf(call, step.position)));
   byId("marks").replaceChildren(...Object.keys(recording.outcomes).filter((outcome) => seen.has(outcome)).map((outcome) =>
     make("li", {}, markOf(outcome), nameOf(outcome))));
   const box = byId("tree-scroll");

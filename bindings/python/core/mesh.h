@@ -10,6 +10,7 @@ void add_mesh(pybind11::module_& module);
 void add_improve(pybind11::module_& module);
 void add_kernel(pybind11::module_& module);
 void add_trace(pybind11::module_& module);
+void add_page(pybind11::module_& module);
 void add_report(pybind11::module_& module);
 
 }  // namespace tetmend::python

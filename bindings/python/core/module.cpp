@@ -67,6 +67,7 @@ PYBIND11_MODULE(_core, module) {
   add_improve(module);
   add_kernel(module);
   add_trace(module);
+  add_page(module);
   add_report(module);
   module.attr("__version__") = std::string(tetmend::version());
   module.def("schedules", [] {

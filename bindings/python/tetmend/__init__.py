@@ -21,10 +21,10 @@ from tetmend._kernel import Call, Edit, Look, PassDone, Ring, TetMesh
 from tetmend._mesh import Group, Mesh, load, save
 from tetmend._options import Options
 from tetmend._quality import BadTet, Quality, quality
-from tetmend._trace import Trace
+from tetmend._trace import Trace, TracePage
 
 __all__ = [
-    "BadTet", "Call", "Check", "Edit", "Error", "Fact", "Group", "Look", "Mesh", "Operator", "OptionError", "Options", "Parameter",
-    "Pass", "PassDone", "Progress", "Quality", "Result", "Ring", "Schedule", "Statistics", "TetMesh", "Trace", "__version__", "adapt",
+    "BadTet", "Call", "Check", "Edit", "Error", "Fact", "Group", "Look", "Mesh", "Operator", "OptionError", "Options", "Parameter", "Pass",
+    "PassDone", "Progress", "Quality", "Result", "Ring", "Schedule", "Statistics", "TetMesh", "Trace", "TracePage", "__version__", "adapt",
     "check", "formats", "improve", "load", "operators", "quality", "save", "schedules",
 ]

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import html
 import json
 import operator
 import os
@@ -13,6 +14,31 @@ from tetmend import _core
 from tetmend._mesh import Mesh, PathLike
 
 _AT_ONCE = 4096  # events
+
+
+class TracePage:
+    """A page that steps through a call, of Trace.show(): a notebook shows it, `save()` writes it for a browser."""
+
+    def __init__(self, page: str, height: int) -> None:
+        self._page = page
+        self._height = height
+
+    @property
+    def html(self) -> str:
+        """The page, which needs nothing else."""
+        return self._page
+
+    def save(self, file: PathLike) -> None:
+        """Writes the page to a file."""
+        with open(file, "w", encoding="utf-8") as out:
+            out.write(self._page)
+
+    def __repr__(self) -> str:
+        return f"<tetmend.TracePage, {len(self._page):,} characters>"
+
+    def _repr_html_(self) -> str:
+        return (f'<iframe title="a call, step by step" srcdoc="{html.escape(self._page)}" '
+                f'style="width: 100%; height: {self._height}px; border: 1px solid #ccc"></iframe>')
 
 
 class Trace:
@@ -27,10 +53,34 @@ class Trace:
     """
 
     def __init__(self, file: PathLike) -> None:
-        self._core = _core.Trace(os.fspath(file))
+        self._file = os.fspath(file)
+        self._core = _core.Trace(self._file)
 
     def __repr__(self) -> str:
         return f"<tetmend.Trace of {self.input or 'arrays'}: {self.call_count:,} calls, {self.event_count:,} events>"
+
+    def _repr_html_(self) -> str:
+        columns: dict[str, list[float]] = {}  # calls, for good, undone, refused, seconds of each operator
+        for entry in self.ledger():
+            kind = 1 if entry["ending"] == "accepted for good" else 2 if entry["ending"] == "undone with a caller" else 3
+            row = columns.setdefault(entry["operator"], [0, 0, 0, 0, 0.0])
+            row[0] += entry["calls"]
+            row[kind] += entry["calls"] if kind < 3 or entry["refused"] else 0  # a trace that is cut off ends in none of these
+            row[4] += entry["seconds"]
+        head = "".join(f"<th>{text}</th>" for text in ("operator", "calls", "accepted for good", "undone with a caller", "refused", "seconds"))
+        rows = "".join(f"<tr><td>{html.escape(name)}</td>{''.join(f'<td>{count:,}</td>' for count in counts[:4])}<td>{counts[4]:.2f}</td></tr>"
+                       for name, counts in columns.items())
+        about = f"{self.input or 'arrays'}, schedule {self.schedule}: {self.call_count:,} calls, {self.event_count:,} events"
+        damage = f"<p>{html.escape(self.damage)}</p>" if self.damage else ""
+        return f"<p>{html.escape(about)}</p>{damage}<table><thead><tr>{head}</tr></thead><tbody>{rows}</tbody></table>"
+
+    def show(self, call: int, *, height: int = 640) -> TracePage:
+        """A call step by step, with three questions, as `tetmend lesson --make FILE --call N` proposes it.
+
+        A notebook shows it, `height` pixels high. The file of the trace is read once more.
+        Raises Error where the trace ends before the call does.
+        """
+        return TracePage(_core.page_of_call(self._file, self._number("call", call)), height)
 
     @property
     def program(self) -> str:

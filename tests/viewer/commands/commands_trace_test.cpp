@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <set>
+#include <vector>
 
 #include <doctest/doctest.h>
 
@@ -123,6 +124,30 @@ TEST_CASE("moves in a trace tell what is wrong with their arguments") {
   CHECK_THROWS_WITH_AS(s.run("enter", {3}), doctest::Contains("from 0 to 2"), Error);
   CHECK_THROWS_WITH_AS(s.run("next_lesson_step"), doctest::Contains("no lesson"), Error);
   CHECK_THROWS_WITH_AS(s.run("last_bookmark"), doctest::Contains("no further"), Error);
+}
+
+TEST_CASE("steps of a lesson at one place of the trace are one step, forwards and backwards") {
+  const test::HandmadeTrace trace;
+  test::write_text(trace.folder / "by_hand.json",
+                   R"({"title": "T", "trace": "by_hand.trace", "steps": [
+                       {"at": 0, "text": "a", "focus": ["tree"]}, {"at": 3, "text": "b"},
+                       {"at": 3, "text": "c", "ask": {"kind": "line", "text": "Which?"}},
+                       {"at": 8, "text": "d"}]})");
+  TraceSession s(trace.path());
+  const auto position = [&] { return s.document.debugger()->position(); };
+  std::vector<std::uint64_t> way;
+  for (int i = 0; i < 2; ++i) {
+    s.run("next_lesson_step");
+    way.push_back(position());
+  }
+  CHECK_THROWS_WITH_AS(s.run("next_lesson_step"), doctest::Contains("end of the lesson"), Error);
+  for (int i = 0; i < 2; ++i) {
+    s.run("last_lesson_step");
+    way.push_back(position());
+  }
+  CHECK(way == std::vector<std::uint64_t>{3, 8, 3, 0});
+  CHECK_THROWS_WITH_AS(s.run("last_lesson_step"), doctest::Contains("beginning of the lesson"),
+                       Error);
 }
 
 TEST_CASE("the camera finds each isolated call, and what is isolated is never nothing") {

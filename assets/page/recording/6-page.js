@@ -1,6 +1,6 @@
 // The page: where it is, and what leads on from there.
 
-const place = {step: 0, cell: 0};
+const place = {step: 0, cell: 0, lesson: 0};
 const view = {when: "now", apart: 0.1, around: true};
 const camera = new Camera();
 const canvas = byId("canvas");
@@ -97,14 +97,7 @@ function goToBall({centre, radius}, isSudden) {
 
 // --- steps ---
 
-const lesson = recording.lesson ?? null;
 let inView = {call: undefined, ball: null};
-
-function lessonStep(position) {
-  let found = -1;
-  lesson.steps.forEach((step, n) => { if (step.at <= position) found = n; });
-  return found;
-}
 
 function show(isSudden = false) {
   const step = steps[place.step];
@@ -125,7 +118,7 @@ function show(isSudden = false) {
   main.classList.toggle("no-tables", Boolean(call?.shell) && byId("tables-card").hidden);
   showTree(step, enter, show);
   showLegend(scene);
-  showLesson(step);
+  showLesson(step, call);
   showPlace(step, filling ? total : 0);
   for (const button of document.querySelectorAll("[data-when]")) button.setAttribute("aria-pressed", String(button.dataset.when === view.when));
   byId("along").disabled = axisOf(call) === null;
@@ -167,21 +160,15 @@ function showPlace(step, cells) {
   byId("count").title = `after ${step.position} events of the trace`;
   const isFirst = place.step === 0 && place.cell === 0;
   const isLast = place.step === steps.length - 1;
-  for (const button of document.querySelectorAll("nav button")) button.disabled = button.dataset.step.startsWith("back") ? isFirst : isLast;
-  const hash = `#step=${step.position}${place.cell ? `.${place.cell}` : ""}`;
-  if (location.hash !== hash) history.replaceState(null, "", hash);
+  for (const button of document.querySelectorAll(".events button")) button.disabled = button.dataset.step.startsWith("back") ? isFirst : isLast;
+  const hash = isOnStage() ? `#lesson=${place.lesson + 1}` : `#step=${step.position}${place.cell ? `.${place.cell}` : ""}`;
+  const hasAddress = location.protocol !== "about:";  // a page within a page may have none
+  if (hasAddress && location.hash !== hash) history.replaceState(null, "", hash);
 }
 
-function showLesson(step) {
-  if (!lesson) return;
-  const n = lessonStep(step.position);
-  byId("lesson-text").textContent = n < 0 ? lesson.title : lesson.steps[n].text;
-  byId("lesson-count").textContent = `${n + 1} of ${lesson.steps.length}`;
-  byId("lesson-back").disabled = n <= 0 && step.position <= lesson.steps[0].at;
-  byId("lesson-next").disabled = n === lesson.steps.length - 1;
-}
-
+/** To any event: all panels are there then. */
 function goTo(number, cell = 0) {
+  setMode("explore");
   place.step = Math.min(Math.max(number, 0), steps.length - 1);
   place.cell = cell;
   view.when = "now";
@@ -223,14 +210,6 @@ function placeOfLastCell(number) {
   return filling ? cellsOf(filling).length : 0;
 }
 
-function moveInLesson(by) {
-  if (!lesson) return;
-  const position = steps[place.step].position;
-  const n = lessonStep(position);
-  const next = by < 0 && n >= 0 && lesson.steps[n].at < position ? n : n + by;
-  if (next >= 0 && next < lesson.steps.length) goTo(stepAfter(lesson.steps[next].at));
-}
-
 function goToCall(holds, by) {
   const {position} = steps[place.step];
   const ends = [...calls.values()].filter((call) => holds(call) && call.reason !== undefined).map((call) => call.end).sort((x, y) => x - y);
@@ -246,6 +225,11 @@ function goToDeepest() {
 }
 
 function goToHash() {
+  const inLesson = /^#lesson=(\d+)$/.exec(location.hash);
+  if (lesson && inLesson) {
+    goToLesson(Number(inLesson[1]) - 1);
+    return true;
+  }
   const found = /^#step=(\d+)(?:\.(\d+))?$/.exec(location.hash);
   if (!found) return false;
   goTo(stepAfter(Number(found[1])), Number(found[2] ?? 0));
@@ -293,6 +277,7 @@ const KEYS = [
   [["PageUp"], "To before the call", () => move("back-out")],
   [["Home"], "To the first step", () => goTo(0)],
   [["End"], "To the last step", () => goTo(steps.length - 1)],
+  [["e"], "All panels and every event, or the lesson again", toggleExplore],
   [["n", "L"], "Next step of the lesson", () => moveInLesson(1)],
   [["b", "K"], "Step of the lesson before", () => moveInLesson(-1)],
   [[" "], "Play, or stop playing", play],
@@ -314,7 +299,7 @@ const KEYS = [
 const KEY_NAMES = {ArrowRight: "Right", ArrowLeft: "Left", ArrowDown: "Down", ArrowUp: "Up", PageDown: "Page Down", PageUp: "Page Up", " ": "Space", L: "Shift+L", K: "Shift+K", J: "Shift+J", U: "Shift+U"};
 
 document.addEventListener("keydown", (event) => {
-  const isTyping = event.target.matches("input[type=range]") && event.key.startsWith("Arrow");
+  const isTyping = (event.target.matches("input[type=range]") && event.key.startsWith("Arrow")) || event.target.matches("input[type=text]");
   const isPressing = event.target.matches("button, input") && event.key === " ";
   if (isTyping || isPressing || event.ctrlKey || event.altKey || event.metaKey || byId("keys").open) return;
   if (event.target === canvas && turnByKey(event, camera)) return redrawPicture();
@@ -351,13 +336,18 @@ function describeOrigin() {
 function begin() {
   setTheme(wantedTheme());
   describeOrigin();
-  byId("lesson").hidden = !lesson;
+  byId("lesson").hidden = byId("bar").hidden = !lesson;
+  setMode(lesson ? "lesson" : "explore");
+  if (lesson) place.step = stepAfter(lesson.steps[0].at);
   byId("slider").max = steps.length - 1;
   byId("slider").addEventListener("input", () => goTo(Number(byId("slider").value)));
-  for (const button of document.querySelectorAll("nav button")) button.addEventListener("click", () => move(button.dataset.step));
+  for (const button of document.querySelectorAll(".events button")) button.addEventListener("click", () => move(button.dataset.step));
   for (const button of document.querySelectorAll("[data-when]")) button.addEventListener("click", () => showWhen(button.dataset.when));
   byId("lesson-next").addEventListener("click", () => moveInLesson(1));
   byId("lesson-back").addEventListener("click", () => moveInLesson(-1));
+  byId("explore").addEventListener("click", toggleExplore);
+  byId("ask").addEventListener("submit", checkNumber);
+  addEventListener("resize", fitStage);
   byId("apart").addEventListener("input", () => { view.apart = byId("apart").value / 100; show(); });
   byId("around").addEventListener("change", () => { view.around = byId("around").checked; show(); });
   const keyFor = (key) => KEYS.find(([keys]) => keys.includes(key))[2];

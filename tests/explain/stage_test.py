@@ -1,0 +1,265 @@
+# SPDX-License-Identifier: MIT
+"""Every step of every lesson on its stage, in headless Chromium: what it speaks of is in the window, the buttons stay where they are,
+and the trace answers the questions.
+
+    stage_test.py SOURCE TETMEND WORK     WORK: a folder that this test may empty
+
+Exit status 77: Chromium is not installed.
+"""
+
+import json
+import re
+import shutil
+import sys
+import unittest
+from pathlib import Path
+
+SOURCE, TETMEND, WORK = (Path(argument).resolve() for argument in sys.argv[1:4])
+sys.path.insert(0, str(SOURCE / "tests" / "docs"))
+import browser  # noqa: E402
+
+SKIPPED = 77
+LECTURES = SOURCE / "docs" / "lectures"
+PAGES = sorted(LECTURES.glob("*-*.html"), key=lambda page: int(page.name.split("-")[0]))
+SIZES = {"phone": (390, 844, False), "projector": (1280, 720, True), "desk": (1920, 1080, False)}  # width, height, large text
+# What Chromium says of its own stand-in for a graphics card.
+OF_THE_BROWSER = re.compile(r"software WebGL has been deprecated|GL Driver Message \(OpenGL, Performance")
+
+# Where things are at a step, and what is cut off.
+LOOK = """
+const look = () => {
+const isSeen = (e) => e.getClientRects().length > 0;
+const box = (e) => { const r = e.getBoundingClientRect(); return [r.left, r.top, r.right, r.bottom].map((x) => Math.round(10 * x) / 10); };
+const wanted = lesson.steps[place.lesson].focus;
+const panels = {picture: ".picture", ring: ".ring", tables: ".tables", algorithm: ".code", tree: ".tree"};
+const bad = [];
+const isInside = (e, [left, top, right, bottom], what) => {
+  const r = e.getBoundingClientRect();
+  if (r.left < left - 1 || r.top < top - 1 || r.right > right + 1 || r.bottom > bottom + 1) bad.push(`${what}: ${box(e)} of ${[left, top, right, bottom]}`);
+};
+const bar = document.getElementById("bar").getBoundingClientRect();
+const room = [0, 0, innerWidth, bar.top];
+if (document.documentElement.scrollHeight > innerHeight || document.documentElement.scrollWidth > innerWidth) bad.push("the page scrolls");
+isInside(document.getElementById("bar"), [0, 0, innerWidth, innerHeight], "bar");
+for (const id of ["lesson-text", "ask"]) {
+  const e = document.getElementById(id);
+  if (!isSeen(e)) continue;
+  isInside(e, room, id);
+  if (e.scrollWidth > e.clientWidth + 1 || e.scrollHeight > e.clientHeight + 1) bad.push(`${id}: a text is cut`);
+}
+const shown = [];
+for (const [name, selector] of Object.entries(panels)) {
+  const card = document.querySelector(selector);
+  if (!isSeen(card)) continue;
+  shown.push(name);
+  isInside(card, room, name);
+  for (const e of [card, ...card.querySelectorAll("*")]) {
+    if (e.closest("#names") || (e !== e.closest("svg") && e.closest("svg")) || !isSeen(e)) continue;
+    isInside(e, box(card), `${name} ${e.tagName} ${e.textContent.slice(0, 20)}`);
+    if (e.childElementCount === 0 && e.textContent.trim() && parseFloat(getComputedStyle(e).fontSize) < 8.5) bad.push(`${name}: text of ${getComputedStyle(e).fontSize}`);
+  }
+}
+const size = (selector) => { const r = document.querySelector(selector).getBoundingClientRect(); return Math.min(r.width, r.height); };
+if (shown.includes("picture") && size("#stage") < 95) bad.push(`picture of ${size("#stage")}`);
+if (shown.includes("ring") && size("#ring") < 95) bad.push(`ring of ${size("#ring")}`);
+return {hash: location.hash, bad, wanted, shown, next: box(document.getElementById("lesson-next")), back: box(document.getElementById("lesson-back")), theme: document.documentElement.dataset.theme};
+};
+"""
+# From the first step to the last by Next alone; each once more with its question answered.
+WALK = LOOK + """
+const seen = [];
+for (let n = 0; n < lesson.steps.length; ++n) {
+  seen.push(look());
+  if (questionAt(n)) {
+    giveAnswer(n, false, questionAt(n).kind === "chord" ? [0, 0] : 1);
+    seen.push(look());
+  }
+  if (n + 1 < lesson.steps.length) document.getElementById("lesson-next").click();
+}
+return seen;
+"""
+
+
+def recording(page: Path) -> dict:
+    return json.loads(re.search(r'id="recording">(.*?)</script>', page.read_text(), re.S).group(1))
+
+
+def window(width: int, height: int, dark: bool = False) -> browser.Browser:
+    opened = browser.Browser(width, height, dark)
+    if width >= 500:
+        opened.command("Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=1, mobile=False)
+    looks = [{"name": "prefers-reduced-motion", "value": "reduce"}, {"name": "prefers-color-scheme", "value": "dark" if dark else "light"}]
+    opened.command("Emulation.setEmulatedMedia", features=looks)
+    return opened
+
+
+class Stage(unittest.TestCase):
+    def quiet(self, where: browser.Browser, what: str) -> None:
+        self.assertEqual([line for line in where.complaints() if not OF_THE_BROWSER.search(line)], [], what)
+
+    def walk(self, where: browser.Browser, page: Path, large: bool, dark: bool) -> int:
+        where.open("about:blank")
+        where.open(page.as_uri())
+        if large:
+            where.run("document.getElementById('text-size').click()")
+        steps = recording(page)["lesson"]["steps"]
+        seen = where.run(WALK)
+        for look in seen:
+            what = f"{page.name}, {look['hash']}"
+            self.assertEqual(look["bad"], [], what)
+            self.assertTrue(look["shown"], what)
+            self.assertLessEqual(set(look["shown"]), set(look["wanted"]) | {"picture"}, what)
+            self.assertEqual(look["theme"], "dark" if dark else "light", what)
+        wanted = [f"#lesson={n}" for n, step in enumerate(steps, 1) for _ in range(2 if "ask" in step else 1)]
+        self.assertEqual([look["hash"] for look in seen], wanted, page.name)
+        self.assertEqual(len({(*look["next"], *look["back"]) for look in seen}), 1, f"{page.name}: Next and Previous move")
+        self.quiet(where, page.name)
+        return len(steps)
+
+    def test_what_each_step_speaks_of_is_in_the_window_and_next_never_moves(self) -> None:
+        for name, (width, height, large) in SIZES.items():
+            for dark in (False, True):
+                where = window(width, height, dark)
+                try:
+                    for page in PAGES:
+                        with self.subTest(size=name, dark=dark, page=page.name):
+                            self.assertGreater(self.walk(where, page, large, dark), 3)
+                finally:
+                    where.close()
+
+    def test_what_is_promised_is_shown_where_the_trace_has_it(self) -> None:
+        """At most the first step of a lesson, before any call, has a panel less than its focus."""
+        where = window(1920, 1080)
+        try:
+            for page in PAGES:
+                where.open("about:blank")
+                where.open(page.as_uri())
+                steps = recording(page)["lesson"]["steps"]
+                shown = {look["hash"]: set(look["shown"]) for look in where.run(WALK)}
+                for step, told in enumerate(steps[1:], 2):
+                    with self.subTest(page=page.name, step=step):
+                        self.assertEqual(shown[f"#lesson={step}"], set(told["focus"]))
+        finally:
+            where.close()
+
+    def test_a_phone_goes_through_the_lecture_by_taps_at_one_place(self) -> None:
+        where = window(390, 844)
+        try:
+            where.open(PAGES[0].as_uri())
+            x, y = where.run("const r = document.getElementById('lesson-next').getBoundingClientRect(); return [r.left + r.width / 2, r.top + r.height / 2]")
+            for n, page in enumerate(PAGES):
+                self.assertTrue(where.run("return location.pathname").endswith(page.name))
+                for _ in recording(page)["lesson"]["steps"]:
+                    for kind in ("touchStart", "touchEnd"):
+                        where.command("Input.dispatchTouchEvent", type=kind, touchPoints=[{"x": x, "y": y}] if kind == "touchStart" else [])
+                if n + 1 < len(PAGES):
+                    following = PAGES[n + 1].name
+                    self.assertTrue(where.wait_for(f"return location.pathname.endsWith('{following}') && document.readyState === 'complete'"), following)
+            self.assertTrue(where.run("return document.getElementById('lesson-next').disabled"))
+        finally:
+            where.close()
+
+    def test_answers_are_those_of_the_trace_and_count_once(self) -> None:
+        where = window(1920, 1080)
+        kinds = set()
+        try:
+            for page in PAGES:
+                steps = recording(page)["lesson"]["steps"]
+                asked = [n for n, step in enumerate(steps, 1) if "ask" in step]
+                for is_right in (True, False):
+                    where.open("about:blank")
+                    where.open(f"{page.as_uri()}#lesson=1")
+                    for n in asked:
+                        ask = steps[n - 1]["ask"]
+                        where.run("goToLesson(arguments[0] - 1)", n)
+                        for _ in range(2):  # the second time, nothing may change
+                            self.answer(where, ask, is_right)
+                        said = where.run("return document.getElementById('answered').textContent")
+                        self.assertTrue(said.startswith("✓ Right." if is_right else "✗ Not so."), f"{page.name}, step {n}: {said}")
+                        self.assertIn(ask["why"], said)
+                        kinds.add(ask["kind"])
+                    score = f"{len(asked) if is_right else 0} right of {len(asked)}"
+                    self.assertIn(score, where.run("return document.getElementById('score').textContent"), page.name)
+                self.quiet(where, page.name)
+        finally:
+            where.close()
+        self.assertEqual(kinds, {"line", "accepted", "chord", "number"})
+
+    def answer(self, where: browser.Browser, ask: dict, is_right: bool) -> None:
+        """By the buttons that a reader has."""
+        answer = ask["answer"]
+        if ask["kind"] == "accepted":
+            wanted = answer if is_right else not answer
+            where.run("document.querySelectorAll('#choices button')[arguments[0] ? 0 : 1].click()", wanted)
+        elif ask["kind"] == "line":
+            line = answer if is_right else answer % where.run("return document.querySelectorAll('#code li').length") + 1
+            where.run("document.querySelectorAll('#code button')[arguments[0] - 1].click()", line)
+        elif ask["kind"] == "number":
+            value = answer if is_right else answer + ask["within"] + 1
+            where.run("const field = document.getElementById('number'); if (!field.disabled) field.value = arguments[0]; document.querySelector('#choices button').click()", str(value))
+        else:
+            chord = answer[0]
+            if not is_right:
+                ring = where.run("return [...document.querySelectorAll('#ring text[data-kind=corner]')].map((e) => Number(e.textContent))")
+                chord = [ring[0], ring[1]]  # a side
+            for vertex in chord:
+                where.run("document.querySelector(`#ring [data-corner='${arguments[0]}']`)?.dispatchEvent(new MouseEvent('click', {bubbles: true}))", vertex)
+
+    def test_a_page_tells_the_page_around_it_how_far_its_reader_is(self) -> None:
+        course = WORK / "course.html"
+        course.write_text(f"""<!DOCTYPE html><title>course</title><iframe id="lesson" src="{PAGES[1].as_uri()}" style="width: 1000px; height: 700px"></iframe>
+            <script>const told = []; addEventListener("message", (event) => told.push(event.data));</script>""")
+        where = window(1280, 800)
+        try:
+            where.open(course.as_uri())
+            first = where.wait_for("return told.length > 0 && told[told.length - 1]")
+            steps = recording(PAGES[1])["lesson"]["steps"]
+            questions = sum("ask" in step for step in steps)
+            self.assertEqual(first, {"from": "tetmend", "lesson": recording(PAGES[1])["lesson"]["title"], "step": 1, "steps": len(steps),
+                                     "questions": questions, "answered": 0, "right": 0})
+            # The course cannot reach into the page, as files are strangers to each other: keys can.
+            where.run("document.getElementById('lesson').focus()")
+            for kind in ("keyDown", "keyUp"):
+                where.command("Input.dispatchKeyEvent", type=kind, key="n", text="n" if kind == "keyDown" else "")
+            self.assertTrue(where.wait_for("return told[told.length - 1].step === 2"))
+            self.quiet(where, "course")
+        finally:
+            where.close()
+
+    def test_a_page_within_a_document_of_text_works_without_an_address(self) -> None:
+        notebook = WORK / "notebook.html"
+        text = PAGES[0].read_text().replace("&", "&amp;").replace('"', "&quot;")
+        notebook.write_text(f"""<!DOCTYPE html><title>notebook</title><iframe srcdoc="{text}" style="width: 1000px; height: 700px"></iframe>
+            <script>const told = []; addEventListener("message", (event) => told.push(event.data));</script>""")
+        where = window(1280, 800)
+        try:
+            where.open(notebook.as_uri())
+            self.assertTrue(where.wait_for("return told.length > 0"))
+            where.run("document.querySelector('iframe').contentDocument.getElementById('lesson-next').click()")
+            self.assertTrue(where.wait_for("return told[told.length - 1].step === 2"))
+            self.quiet(where, "notebook")
+        finally:
+            where.close()
+
+    def test_explore_has_all_panels_and_leads_back_to_the_step(self) -> None:
+        where = window(1280, 800)
+        try:
+            where.open(f"{PAGES[1].as_uri()}#lesson=4")
+            where.run("document.getElementById('explore').click()")
+            self.assertRegex(where.run("return location.hash"), "#step=")
+            seen = where.run("return ['.picture', '.told', '.code', '.ring', '.tree', '.events'].filter((e) => document.querySelector(e).getClientRects().length > 0).length")
+            self.assertEqual(seen, 6)
+            where.run("document.getElementById('explore').click()")
+            self.assertEqual(where.run("return location.hash"), "#lesson=4")
+            self.quiet(where, "explore")
+        finally:
+            where.close()
+
+
+if __name__ == "__main__":
+    if not browser.is_installed():
+        print("stage_test: no chromium or chromedriver: skipped")
+        sys.exit(SKIPPED)
+    shutil.rmtree(WORK, ignore_errors=True)
+    WORK.mkdir(parents=True)
+    unittest.main(argv=[sys.argv[0], *sys.argv[4:]])
