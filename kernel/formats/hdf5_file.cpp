@@ -54,6 +54,9 @@ class MemoryReader final : public Hdf5Reader {
  public:
   MemoryReader(const InputFile& input, std::string_view format)
       : input_(input), file_(open(input), H5Fclose) {
+    if (input.size() == 0) {
+      input.fail_at_byte(input.begin(), "the file is empty: expected a file of HDF5");
+    }
     if (file_.is_open()) return;
     throw Error(
         fmt::format("{}: the file cannot be read as one of HDF5, as {} files are: it is of "
@@ -398,6 +401,10 @@ class MemoryWriter final : public Hdf5Writer {
 };
 
 }  // namespace
+
+bool has_hdf5() {
+  return true;
+}
 
 std::unique_ptr<Hdf5Reader> open_hdf5(const InputFile& file, std::string_view format) {
   return std::make_unique<MemoryReader>(file, format);

@@ -16,6 +16,9 @@
 
 namespace tetmend::formats {
 
+/// False in a build without HDF5.
+bool has_hdf5();
+
 /// What is asked for must be there, unless it says otherwise: all functions throw Error
 /// "FILE: /PATH: reason". Links to other files are as if they were not there, and tables that claim more
 /// than the file can hold are refused before memory is taken. One thread at a time has such a file

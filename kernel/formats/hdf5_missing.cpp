@@ -14,6 +14,10 @@ namespace {
 
 }  // namespace
 
+bool has_hdf5() {
+  return false;
+}
+
 std::unique_ptr<Hdf5Reader> open_hdf5(const InputFile& file, std::string_view format) {
   fail_without_hdf5(file.name(), format);
 }

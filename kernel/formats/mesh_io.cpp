@@ -18,6 +18,7 @@
 #include "kernel/formats/degenerate.h"
 #include "kernel/formats/elmer.h"
 #include "kernel/formats/gmsh.h"
+#include "kernel/formats/hdf5_file.h"
 #include "kernel/formats/inp.h"
 #include "kernel/formats/med.h"
 #include "kernel/formats/medit_ascii.h"
@@ -74,6 +75,8 @@ constexpr std::array<MeshFormat, 14> kFormatsTable = {{{"MEDIT ASCII", ".mesh"},
                                                        {"Nastran", ".nas"},
                                                        {"Elmer", ".header"},
                                                        {"MED", ".med"}}};
+
+constexpr std::size_t kOfHdf5 = 1;  // the last of them
 
 constexpr Room kMeditRoom = {.others = true,
                              .required_vertices = true,
@@ -187,7 +190,7 @@ const Codec& find_codec(const std::filesystem::path& file) {
 }  // namespace
 
 std::span<const MeshFormat> mesh_formats() {
-  return kFormatsTable;
+  return std::span(kFormatsTable).first(kFormatsTable.size() - (formats::has_hdf5() ? 0 : kOfHdf5));
 }
 
 MeshData read_mesh(const std::filesystem::path& file, const std::string& label_array) {
