@@ -16,44 +16,12 @@
 #include <hdf5.h>
 #include <mpi.h>
 
+#include "kernel/formats/hdf5_handle.h"
+
 namespace tetmend::mpi {
 
-/// An object of HDF5, which is closed by its own function.
-class Hdf5Handle {
- public:
-  Hdf5Handle(hid_t id, herr_t (*close)(hid_t)) : id_(id), close_(close) {}
-  ~Hdf5Handle() {
-    if (id_ >= 0) close_(id_);
-  }
-  Hdf5Handle(const Hdf5Handle&) = delete;
-  Hdf5Handle& operator=(const Hdf5Handle&) = delete;
-  operator hid_t() const { return id_; }
-  bool is_open() const { return id_ >= 0; }
-
- private:
-  hid_t id_;
-  herr_t (*close_)(hid_t);
-};
-
-/// As memory has a number.
-template <class Number>
-hid_t hdf5_type();
-template <>
-inline hid_t hdf5_type<std::int32_t>() {
-  return H5T_NATIVE_INT32;
-}
-template <>
-inline hid_t hdf5_type<std::int64_t>() {
-  return H5T_NATIVE_INT64;
-}
-template <>
-inline hid_t hdf5_type<float>() {
-  return H5T_NATIVE_FLOAT;
-}
-template <>
-inline hid_t hdf5_type<double>() {
-  return H5T_NATIVE_DOUBLE;
-}
+using formats::hdf5_type;
+using formats::Hdf5Handle;
 
 /// All ranks call the same functions. Names of tables are paths from the root, without the first
 /// '/'.

@@ -18,7 +18,9 @@
 #include "kernel/formats/degenerate.h"
 #include "kernel/formats/elmer.h"
 #include "kernel/formats/gmsh.h"
+#include "kernel/formats/hdf5_file.h"
 #include "kernel/formats/inp.h"
+#include "kernel/formats/med.h"
 #include "kernel/formats/medit_ascii.h"
 #include "kernel/formats/medit_binary.h"
 #include "kernel/formats/medit_elements.h"
@@ -59,7 +61,7 @@ MeshData read_plain(const std::filesystem::path& file, const formats::ReadReques
   return Read(file, request.question);
 }
 
-constexpr std::array<MeshFormat, 13> kFormatsTable = {{{"MEDIT ASCII", ".mesh"},
+constexpr std::array<MeshFormat, 14> kFormatsTable = {{{"MEDIT ASCII", ".mesh"},
                                                        {"MEDIT binary", ".meshb"},
                                                        {"TetGen", ".node"},
                                                        {"TetGen", ".ele"},
@@ -71,7 +73,10 @@ constexpr std::array<MeshFormat, 13> kFormatsTable = {{{"MEDIT ASCII", ".mesh"},
                                                        {"Netgen", ".vol"},
                                                        {"Nastran", ".bdf"},
                                                        {"Nastran", ".nas"},
-                                                       {"Elmer", ".header"}}};
+                                                       {"Elmer", ".header"},
+                                                       {"MED", ".med"}}};
+
+constexpr std::size_t kOfHdf5 = 1;  // the last of them
 
 constexpr Room kMeditRoom = {.others = true,
                              .required_vertices = true,
@@ -126,8 +131,17 @@ constexpr Room kElmerRoom = {.others = true,
                              .named_labels = formats::kNamesOfElements,
                              .takes_name = formats::is_word};
 
+constexpr Room kMedRoom = {.data = true,
+                           .groups = true,
+                           .geometry = false,
+                           .others = true,
+                           .second_order = true,
+                           .holds = formats::med_holds,
+                           .takes_name = formats::is_med_name,
+                           .deck = formats::kMed};
+
 // In the order of formats_table.
-constexpr std::array<Codec, 13> kCodecs = {
+constexpr std::array<Codec, 14> kCodecs = {
     {{read_plain<formats::read_medit_ascii>, formats::write_medit_ascii, kMeditRoom},
      {read_plain<formats::read_medit_binary>, formats::write_medit_binary, kMeditRoom},
      {read_plain<formats::read_tetgen>, formats::write_tetgen, kTetgenRoom, true},
@@ -142,7 +156,8 @@ constexpr std::array<Codec, 13> kCodecs = {
       formats::not_in_nastran},
      {read_plain<formats::read_nastran>, formats::write_nastran, kNastranRoom, false,
       formats::not_in_nastran},
-     {read_plain<formats::read_elmer>, formats::write_elmer, kElmerRoom, true}}};
+     {read_plain<formats::read_elmer>, formats::write_elmer, kElmerRoom, true},
+     {read_plain<formats::read_med>, formats::write_med, kMedRoom, false, formats::not_in_med}}};
 
 /// Of "part.VTU.gz" that is ".vtu".
 std::string format_extension(const std::filesystem::path& file) {
@@ -175,7 +190,7 @@ const Codec& find_codec(const std::filesystem::path& file) {
 }  // namespace
 
 std::span<const MeshFormat> mesh_formats() {
-  return kFormatsTable;
+  return std::span(kFormatsTable).first(kFormatsTable.size() - (formats::has_hdf5() ? 0 : kOfHdf5));
 }
 
 MeshData read_mesh(const std::filesystem::path& file, const std::string& label_array) {

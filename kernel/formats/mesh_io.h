@@ -20,13 +20,15 @@ struct MeshFormat {
   std::string_view extension;  ///< ".mesh"
 };
 
-/// All formats, in the order in which help lists them.
+/// All formats of this build, in the order in which help lists them. One that a build may lack, .med, is
+/// known by its extension all the same, and the error of reading or writing says so.
 std::span<const MeshFormat> mesh_formats();
 
 /// Reads a mesh. `.mesh` and `.meshb` are MEDIT, `.node` or `.ele` a TetGen pair (with `.face` and
 /// `.edge` beside it when present), `.vtk` legacy VTK, ASCII or binary, of version 1.0 to 5.1,
 /// `.vtu` VTK XML, `.msh` Gmsh, ASCII or binary, of version 2.2 or 4.1, `.inp` a deck of Abaqus or
-/// CalculiX, `.su2` SU2, `.vol` Netgen, `.bdf` or `.nas` Nastran, `.header` a folder of Elmer.
+/// CalculiX, `.su2` SU2, `.vol` Netgen, `.bdf` or `.nas` Nastran, `.header` a folder of Elmer,
+/// `.med` MED of Salome.
 /// What the file holds beyond MeshData is named in its `notes`, and so are degenerate elements, see
 /// formats/degenerate.h. Volume elements that cannot be kept are an error.
 /// @param label_array the array of cells that holds the labels; empty: the one with a name that

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "kernel/formats/label_names.h"
+#include "kernel/formats/med.h"
 #include "kernel/formats/medit_marks.h"
 #include "kernel/formats/medit_vectors.h"
 #include "kernel/formats/vtk_roles.h"
@@ -160,12 +161,14 @@ std::vector<std::string> lost_in(const Room& room, const std::string& extension,
   notes.lost(room.low_labels, low_labels(mesh), "labels below 1 are");
   notes.lost(room.point_labels, several_labels(mesh), "labels of points are");
   note_groups(room, mesh, notes);
-  notes.lost(room.groups || by_labels, mesh.entities.size(), "entities of the geometry are");
-  notes.lost(room.groups || room.periodic, mesh.periodic.size(), "periodic links are");
+  const bool has_geometry = room.groups && room.geometry;
+  notes.lost(has_geometry || by_labels, mesh.entities.size(), "entities of the geometry are");
+  notes.lost(has_geometry || room.periodic, mesh.periodic.size(), "periodic links are");
   notes.lost(room.second_order, mesh.mid_nodes.size(), "mid-side nodes of curved elements are");
   notes.lost(room.required_vertices || has_deck, mesh.required_vertices.size(),
              "required vertices are");
-  notes.lost(has_deck || has_only_roles(mesh), mesh.deck.size(),
+  notes.lost(has_deck || has_only_roles(mesh),
+             mesh.variant == kMed ? med_remarks_to_miss(mesh) : mesh.deck.size(),
              "pieces of a deck, all that is no mesh, are");
   return std::move(notes.sentences);
 }

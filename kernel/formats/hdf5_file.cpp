@@ -1,0 +1,417 @@
+// SPDX-License-Identifier: MIT
+// Files of HDF5 in memory.
+#include "kernel/formats/hdf5_file.h"
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <mutex>
+#include <new>
+#include <optional>
+#include <type_traits>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "kernel/error.h"
+#include "kernel/formats/hdf5_handle.h"
+
+namespace tetmend::formats {
+namespace {
+
+/// HDF5 as Debian builds it is for one thread at a time; and what goes wrong is told by us.
+class Hdf5Turn {
+ public:
+  Hdf5Turn() : lock_(mutex()) {
+    H5Eget_auto2(H5E_DEFAULT, &print_, &to_);
+    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+  }
+  ~Hdf5Turn() { H5Eset_auto2(H5E_DEFAULT, print_, to_); }
+  Hdf5Turn(const Hdf5Turn&) = delete;
+  Hdf5Turn& operator=(const Hdf5Turn&) = delete;
+
+ private:
+  static std::mutex& mutex() {
+    static std::mutex only;
+    return only;
+  }
+
+  std::lock_guard<std::mutex> lock_;
+  H5E_auto2_t print_ = nullptr;
+  void* to_ = nullptr;
+};
+
+/// What zlib packs best, and a little room: a table unpacks to no more times the bytes of the file.
+constexpr std::uint64_t kMostUnpacked = 1100;
+
+/// A name that no file can have, for HDF5 wants to know that there is none.
+constexpr const char* kInMemory = "/dev/null/hdf5";
+
+/// Groups know in which order they were filled, for MED asks for the n-th of what they hold.
+constexpr unsigned kInOrder = H5P_CRT_ORDER_TRACKED | H5P_CRT_ORDER_INDEXED;
+
+class MemoryReader final : public Hdf5Reader {
+ public:
+  MemoryReader(const InputFile& input, std::string_view format)
+      : input_(input), file_(open(input), H5Fclose) {
+    if (input.size() == 0) {
+      input.fail_at_byte(input.begin(), "the file is empty: expected a file of HDF5");
+    }
+    if (file_.is_open()) return;
+    throw Error(
+        fmt::format("{}: the file cannot be read as one of HDF5, as {} files are: it is of "
+                    "another format, or truncated",
+                    input.name(), format));
+  }
+
+  bool has(const std::string& path) const override {
+    if (path == "/") return true;
+    for (std::size_t end = 0; end != std::string::npos;) {
+      end = path.find('/', end + 1);
+      const std::string part = path.substr(0, end);
+      H5L_info_t link;
+      const bool is_here = H5Lexists(file_, part.c_str(), H5P_DEFAULT) > 0 &&
+                           H5Lget_info(file_, part.c_str(), &link, H5P_DEFAULT) >= 0;
+      if (!is_here || link.type != H5L_TYPE_HARD) return false;
+    }
+    return true;
+  }
+
+  std::vector<std::string> names(const std::string& path) const override {
+    check_is_there(path);
+    const Hdf5Handle group(H5Gopen2(file_, path.c_str(), H5P_DEFAULT), H5Gclose);
+    if (!group.is_open()) fail(path, "the group cannot be read");
+    std::vector<std::string> found;
+    hsize_t at = 0;
+    const auto take = [](hid_t, const char* name, const H5L_info_t* link, void* list) -> herr_t {
+      try {
+        if (link->type == H5L_TYPE_HARD) {
+          static_cast<std::vector<std::string>*>(list)->emplace_back(name);
+        }
+        return 0;
+      } catch (const std::bad_alloc&) {
+        return -1;
+      }
+    };
+    if (H5Literate(group, H5_INDEX_NAME, H5_ITER_INC, &at, take, &found) < 0) {
+      fail(path, "the group cannot be read");
+    }
+    return found;
+  }
+
+  std::vector<std::uint64_t> extents(const std::string& path) const override {
+    const Table table = open_table(path);
+    return {table.extents.begin(), table.extents.end()};
+  }
+
+  DataArray::Values values(const std::string& path) const override {
+    const Table table = open_table(path);
+    const Hdf5Handle type(H5Dget_type(table.set), H5Tclose);
+    const std::size_t size = H5Tget_size(type);
+    const bool has_sign = H5Tget_sign(type) == H5T_SGN_2;
+    if (H5Tget_class(type) == H5T_INTEGER) {
+      if (size < 4 + (has_sign ? 1U : 0U)) return numbers<std::int32_t>(path, table);
+      if (size < 8 + (has_sign ? 1U : 0U)) return numbers<std::int64_t>(path, table);
+    }
+    if (H5Tget_class(type) == H5T_FLOAT && size <= 4) return numbers<float>(path, table);
+    return numbers<double>(path, table);
+  }
+  std::vector<std::int64_t> integers(const std::string& path) const override {
+    const Table table = open_table(path);
+    const Hdf5Handle type(H5Dget_type(table.set), H5Tclose);
+    if (H5Tget_class(type) != H5T_INTEGER) fail(path, "the table holds no integers");
+    return numbers<std::int64_t>(path, table);
+  }
+  std::vector<double> reals(const std::string& path) const override {
+    return numbers<double>(path, open_table(path));
+  }
+
+  std::vector<std::string> texts(const std::string& path) const override {
+    const Table table = open_table(path);
+    const Hdf5Handle type(H5Dget_type(table.set), H5Tclose);
+    std::size_t width = H5Tget_size(type);
+    if (H5Tget_class(type) == H5T_ARRAY) {
+      const Hdf5Handle inner(H5Tget_super(type), H5Tclose);
+      if (H5Tget_size(inner) != 1) width = 0;
+    } else if (H5Tget_class(type) != H5T_STRING || H5Tis_variable_str(type) != 0) {
+      width = width == 1 && table.extents.size() == 2 ? 1 : 0;  // of single characters
+    }
+    if (width == 0) fail(path, "the table holds no texts");
+    std::string all(table.count * width, '\0');
+    if (!all.empty() && H5Dread(table.set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, all.data()) < 0) {
+      fail(path, "the table cannot be read");
+    }
+    if (width == 1 && table.extents.size() == 2) width = static_cast<std::size_t>(table.extents[1]);
+    std::vector<std::string> rows;
+    for (std::size_t at = 0; width > 0 && at < all.size(); at += width) {
+      std::string row = all.substr(at, width);
+      row.resize(std::min(row.find('\0'), row.size()));
+      row.resize(row.find_last_not_of(' ') + 1);
+      rows.push_back(std::move(row));
+    }
+    return rows;
+  }
+
+  bool has(const std::string& path, const char* attribute) const override {
+    return has(path) && H5Aexists_by_name(file_, path.c_str(), attribute, H5P_DEFAULT) > 0;
+  }
+  std::int64_t integer(const std::string& path, const char* attribute) const override {
+    return number<std::int64_t>(path, attribute);
+  }
+  double real(const std::string& path, const char* attribute) const override {
+    return number<double>(path, attribute);
+  }
+  std::string text(const std::string& path, const char* attribute) const override {
+    if (!has(path, attribute)) return {};
+    const Hdf5Handle opened = open_attribute(path, attribute);
+    const Hdf5Handle type(H5Aget_type(opened), H5Tclose);
+    const Hdf5Handle space(H5Aget_space(opened), H5Sclose);
+    const bool is_null = H5Sget_simple_extent_type(space) == H5S_NULL;
+    if (H5Tget_class(type) != H5T_STRING || is_null) return {};
+    if (H5Sget_simple_extent_npoints(space) != 1) fail_attribute(path, attribute);
+    std::string found;
+    if (H5Tis_variable_str(type) > 0) {
+      char* text = nullptr;
+      if (H5Aread(opened, type, static_cast<void*>(&text)) < 0) fail_attribute(path, attribute);
+      if (text != nullptr) found = text;
+      H5free_memory(text);
+      return found;
+    }
+    const std::size_t size = H5Tget_size(type);
+    if (size > input_.size()) fail_attribute(path, attribute);
+    found.resize(size);
+    if (H5Aread(opened, type, found.data()) < 0) fail_attribute(path, attribute);
+    found.resize(std::min(found.find('\0'), found.size()));
+    return found;
+  }
+
+  [[noreturn]] void fail(const std::string& path, std::string_view reason) const override {
+    throw Error(fmt::format("{}: {}: {}", input_.name(), in_quotes("/" + path), reason));
+  }
+
+ private:
+  struct Table {
+    Hdf5Handle set;
+    std::vector<hsize_t> extents;
+    std::size_t count;  // of numbers
+  };
+
+  static hid_t open(const InputFile& input) {
+    const Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
+    if (input.size() == 0 || H5Pset_fapl_core(access, std::size_t{1} << 16, false) < 0) return -1;
+    if (H5Pset_file_image(access, const_cast<char*>(input.begin()), input.size()) < 0) {
+      throw std::bad_alloc();
+    }
+    return H5Fopen(kInMemory, H5F_ACC_RDONLY, access);
+  }
+
+  void check_is_there(const std::string& path) const {
+    if (!has(path)) fail(path, "it is not there, or a link to elsewhere");
+  }
+
+  Table open_table(const std::string& path) const {
+    check_is_there(path);
+    const hid_t set = H5Dopen2(file_, path.c_str(), H5P_DEFAULT);
+    Table table{{set, H5Dclose}, {}, 0};
+    if (set < 0) fail(path, "it is no table that can be read");
+    const Hdf5Handle space(H5Dget_space(set), H5Sclose);
+    const int rank = H5Sget_simple_extent_ndims(space);
+    if (rank < 1 || rank > 3) fail(path, "the table has another form than expected");
+    table.extents.resize(static_cast<std::size_t>(rank));
+    H5Sget_simple_extent_dims(space, table.extents.data(), nullptr);
+    const Hdf5Handle type(H5Dget_type(set), H5Tclose);
+    check_room(path, table, std::max<std::size_t>(H5Tget_size(type), 1));
+    return table;
+  }
+
+  /// Refuses a table that the file cannot hold, and one that lies in other files.
+  void check_room(const std::string& path, Table& table, std::uint64_t bytes_each) const {
+    const Hdf5Handle made(H5Dget_create_plist(table.set), H5Pclose);
+    const H5D_layout_t layout = H5Pget_layout(made);
+    if (H5Pget_external_count(made) > 0 || layout == H5D_VIRTUAL) {
+      fail(path, "the table lies in other files");
+    }
+    const bool is_packed = layout == H5D_CHUNKED;
+    const std::uint64_t stored =
+        std::min<std::uint64_t>(H5Dget_storage_size(table.set), input_.size());
+    std::uint64_t room = (is_packed ? stored * kMostUnpacked : stored) / bytes_each;
+    table.count = 1;
+    for (const hsize_t extent : table.extents) {
+      if (extent > 0 && extent > room) {
+        fail(path, fmt::format("{} rows or columns cannot fit into the {} bytes that are stored",
+                               extent, stored));
+      }
+      room = extent == 0 ? room : room / extent;
+      table.count *= static_cast<std::size_t>(extent);
+    }
+  }
+
+  template <class Number>
+  std::vector<Number> numbers(const std::string& path, const Table& table) const {
+    const Hdf5Handle type(H5Dget_type(table.set), H5Tclose);
+    const H5T_class_t kind = H5Tget_class(type);
+    if (kind != H5T_INTEGER && kind != H5T_FLOAT) fail(path, "the table holds no numbers");
+    std::vector<Number> all(table.count);
+    if (!all.empty() &&
+        H5Dread(table.set, hdf5_type<Number>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, all.data()) < 0) {
+      fail(path, "the table cannot be read");
+    }
+    return all;
+  }
+
+  Hdf5Handle open_attribute(const std::string& path, const char* attribute) const {
+    check_is_there(path);
+    return {H5Aopen_by_name(file_, path.c_str(), attribute, H5P_DEFAULT, H5P_DEFAULT), H5Aclose};
+  }
+  template <class Number>
+  Number number(const std::string& path, const char* attribute) const {
+    const Hdf5Handle opened = open_attribute(path, attribute);
+    const Hdf5Handle type(H5Aget_type(opened), H5Tclose);
+    const Hdf5Handle space(H5Aget_space(opened), H5Sclose);
+    const H5T_class_t kind = H5Tget_class(type);
+    Number value{};
+    if (!opened.is_open() || (kind != H5T_INTEGER && kind != H5T_FLOAT) ||
+        H5Sget_simple_extent_npoints(space) != 1 ||
+        H5Aread(opened, hdf5_type<Number>(), &value) < 0) {
+      fail_attribute(path, attribute);
+    }
+    return value;
+  }
+  [[noreturn]] void fail_attribute(const std::string& path, const char* attribute) const {
+    fail(path, fmt::format("the attribute {} is not there, or no value", attribute));
+  }
+
+  Hdf5Turn turn_;
+  const InputFile& input_;
+  Hdf5Handle file_;
+};
+
+class MemoryWriter final : public Hdf5Writer {
+ public:
+  explicit MemoryWriter(std::string name)
+      : name_(std::move(name)),
+        in_order_(H5Pcreate(H5P_GROUP_CREATE), H5Pclose),
+        file_(std::in_place, create(), H5Fclose) {
+    H5Pset_obj_track_times(in_order_, false);
+    H5Pset_link_creation_order(in_order_, kInOrder);
+    check(file_->is_open());
+  }
+
+  void group(const std::string& path) override {
+    for (std::size_t end = 0; end != std::string::npos;) {
+      end = path.find('/', end + 1);
+      const std::string part = path.substr(0, end);
+      if (H5Lexists(*file_, part.c_str(), H5P_DEFAULT) > 0) continue;
+      const Hdf5Handle made(H5Gcreate2(*file_, part.c_str(), H5P_DEFAULT, in_order_, H5P_DEFAULT),
+                            H5Gclose);
+      check(made.is_open());
+    }
+  }
+
+  void write(const std::string& path, const DataArray::Values& values,
+             std::size_t columns) override {
+    std::visit(
+        [&](const auto& numbers) {
+          using Number = typename std::decay_t<decltype(numbers)>::value_type;
+          const std::array<hsize_t, 2> extents = {
+              numbers.size() / std::max<std::size_t>(columns, 1), columns};
+          const Hdf5Handle space(H5Screate_simple(columns == 0 ? 1 : 2, extents.data(), nullptr),
+                                 H5Sclose);
+          write_table(path, hdf5_type<Number>(), space, numbers.data(), numbers.empty());
+        },
+        values);
+  }
+
+  void write_texts(const std::string& path, const std::vector<std::string>& texts,
+                   std::size_t width) override {
+    std::string all;
+    for (const std::string& text : texts) {
+      all += text.substr(0, width);
+      all.append(width - std::min(width, text.size()), '\0');
+    }
+    const hsize_t columns = width;
+    const hsize_t rows = texts.size();
+    const Hdf5Handle type(H5Tarray_create2(H5T_NATIVE_SCHAR, 1, &columns), H5Tclose);
+    const Hdf5Handle space(H5Screate_simple(1, &rows, nullptr), H5Sclose);
+    write_table(path, type, space, all.data(), all.empty());
+  }
+
+  void set(const std::string& path, const char* attribute, const Attribute& value) override {
+    const Hdf5Handle one(H5Screate(H5S_SCALAR), H5Sclose);
+    if (const auto* text = std::get_if<std::string>(&value)) {
+      const Hdf5Handle type(H5Tcopy(H5T_C_S1), H5Tclose);
+      H5Tset_size(type, text->size() + 1);
+      return write_attribute(path, attribute, type, one, text->c_str());
+    }
+    if (const auto* number = std::get_if<std::int32_t>(&value)) {
+      return write_attribute(path, attribute, H5T_NATIVE_INT32, one, number);
+    }
+    write_attribute(path, attribute, H5T_NATIVE_DOUBLE, one, &std::get<double>(value));
+  }
+
+  std::string bytes() override {
+    check(H5Fflush(*file_, H5F_SCOPE_GLOBAL) >= 0);
+    const ssize_t size = H5Fget_file_image(*file_, nullptr, 0);
+    check(size >= 0);
+    std::string all(static_cast<std::size_t>(size), '\0');
+    check(H5Fget_file_image(*file_, all.data(), all.size()) == size);
+    file_.reset();
+    return all;
+  }
+
+ private:
+  static hid_t create() {
+    const Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
+    H5Pset_fapl_core(access, std::size_t{1} << 24, false);
+    const Hdf5Handle made(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
+    H5Pset_obj_track_times(made, false);
+    H5Pset_link_creation_order(made, kInOrder);
+    return H5Fcreate(kInMemory, H5F_ACC_TRUNC, made, access);
+  }
+
+  /// In memory nothing but memory can fail.
+  void check(bool done) const {
+    if (!done) throw Error(fmt::format("{}: cannot be written: not enough memory", name_));
+  }
+
+  void write_table(const std::string& path, hid_t type, hid_t space, const void* from,
+                   bool is_empty) {
+    const Hdf5Handle made(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+    H5Pset_obj_track_times(made, false);
+    H5Pset_fill_time(made, H5D_FILL_TIME_NEVER);
+    if (path.find('/') != std::string::npos) group(path.substr(0, path.rfind('/')));
+    const Hdf5Handle set(
+        H5Dcreate2(*file_, path.c_str(), type, space, H5P_DEFAULT, made, H5P_DEFAULT), H5Dclose);
+    check(set.is_open());
+    check(is_empty || H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, from) >= 0);
+  }
+
+  void write_attribute(const std::string& path, const char* attribute, hid_t type, hid_t space,
+                       const void* from) {
+    const Hdf5Handle made(H5Acreate_by_name(*file_, path.c_str(), attribute, type, space,
+                                            H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
+                          H5Aclose);
+    check(made.is_open() && H5Awrite(made, type, from) >= 0);
+  }
+
+  Hdf5Turn turn_;
+  std::string name_;
+  Hdf5Handle in_order_;  // how groups are made
+  std::optional<Hdf5Handle> file_;
+};
+
+}  // namespace
+
+bool has_hdf5() {
+  return true;
+}
+
+std::unique_ptr<Hdf5Reader> open_hdf5(const InputFile& file, std::string_view format) {
+  return std::make_unique<MemoryReader>(file, format);
+}
+
+std::unique_ptr<Hdf5Writer> make_hdf5(std::string name, std::string_view) {
+  return std::make_unique<MemoryWriter>(std::move(name));
+}
+
+}  // namespace tetmend::formats

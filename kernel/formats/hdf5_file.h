@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+// Files of HDF5 in memory: tables and texts by their paths, "ENS_MAA/part". Formats that are made of
+// them need no header of HDF5, and a build without it says so when a file is opened.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "kernel/formats/input_file.h"
+#include "kernel/mesh_data.h"
+
+namespace tetmend::formats {
+
+/// False in a build without HDF5.
+bool has_hdf5();
+
+/// What is asked for must be there, unless it says otherwise: all functions throw Error
+/// "FILE: /PATH: reason". Links to other files are as if they were not there, and tables that claim more
+/// than the file can hold are refused before memory is taken. One thread at a time has such a file
+/// open; others wait.
+class Hdf5Reader {
+ public:
+  virtual ~Hdf5Reader() = default;
+
+  virtual bool has(const std::string& path) const = 0;
+  /// What a group, or "/", holds, in ascending order.
+  virtual std::vector<std::string> names(const std::string& group) const = 0;
+  /// Rows, columns... of a table.
+  virtual std::vector<std::uint64_t> extents(const std::string& table) const = 0;
+  /// All numbers of a table, row by row, in the type that holds them; integers that no type of ours
+  /// holds are doubles.
+  virtual DataArray::Values values(const std::string& table) const = 0;
+  virtual std::vector<std::int64_t> integers(const std::string& table) const = 0;
+  virtual std::vector<double> reals(const std::string& table) const = 0;
+  /// Rows of characters, up to the first that is zero, without blanks at the end.
+  virtual std::vector<std::string> texts(const std::string& table) const = 0;
+
+  virtual bool has(const std::string& path, const char* attribute) const = 0;
+  virtual std::int64_t integer(const std::string& path, const char* attribute) const = 0;
+  virtual double real(const std::string& path, const char* attribute) const = 0;
+  /// As it stands, with blanks; empty where it is not there.
+  virtual std::string text(const std::string& path, const char* attribute) const = 0;
+
+  [[noreturn]] virtual void fail(const std::string& path, std::string_view reason) const = 0;
+};
+
+/// The bytes of `file` must stay. @param format what messages call the format: "MED"
+/// @throws Error where they are none of HDF5, or this build has no HDF5
+std::unique_ptr<Hdf5Reader> open_hdf5(const InputFile& file, std::string_view format);
+
+/// The same calls make the same bytes. Groups on the way to a path are made if need be.
+class Hdf5Writer {
+ public:
+  using Attribute = std::variant<std::int32_t, double, std::string>;
+
+  virtual ~Hdf5Writer() = default;
+
+  virtual void group(const std::string& path) = 0;
+  /// `columns` 0: a list.
+  virtual void write(const std::string& table, const DataArray::Values& values,
+                     std::size_t columns = 0) = 0;
+  /// Each cut at, or filled up with zeros to, `width` characters.
+  virtual void write_texts(const std::string& table, const std::vector<std::string>& texts,
+                           std::size_t width) = 0;
+  virtual void set(const std::string& path, const char* attribute, const Attribute& value) = 0;
+  /// The whole file; the last call.
+  virtual std::string bytes() = 0;
+};
+
+/// @param name what messages call the file
+/// @throws Error where this build has no HDF5
+std::unique_ptr<Hdf5Writer> make_hdf5(std::string name, std::string_view format);
+
+}  // namespace tetmend::formats

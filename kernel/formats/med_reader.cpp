@@ -1,0 +1,520 @@
+// SPDX-License-Identifier: MIT
+// Reads MED files. Tables have all first coordinates, then all second ones, and so on.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <initializer_list>
+#include <map>
+#include <memory>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "kernel/error.h"
+#include "kernel/formats/element_checks.h"
+#include "kernel/formats/element_rows.h"
+#include "kernel/formats/hdf5_file.h"
+#include "kernel/formats/inp_lines.h"
+#include "kernel/formats/inp_sets.h"
+#include "kernel/formats/med.h"
+#include "kernel/geometry.h"
+
+namespace tetmend::formats {
+namespace {
+
+constexpr std::string_view kWholeMesh = "MED_NO_PROFILE_INTERNAL";
+
+/// Types that are not in kMedTypes, and that a mesh cannot do without.
+constexpr std::array<std::string_view, 5> kOtherVolumes = {"P18", "H27", "OCT", "POE", "O12"};
+
+std::string trimmed_text(std::string text) {
+  text.resize(text.find_last_not_of(' ') + 1);
+  return text;
+}
+
+/// Elements of one type.
+struct MedBlock {
+  const MedType* type = nullptr;
+  std::string path;
+  std::size_t count = 0;
+  std::vector<std::int64_t> nodes;     // first nodes of all, then second ones...
+  std::vector<std::int64_t> families;  // one for each, or none
+  std::vector<std::int64_t> numbers;
+
+  Label family(std::size_t i) const {
+    return families.empty() ? 0 : static_cast<Label>(families[i]);
+  }
+  const ElementKind& kind() const { return *element_kind(type->vtk_type); }
+};
+
+class Reader {
+ public:
+  Reader(const InputFile& input, TetPlace* question)
+      : input_(input), file_(open_hdf5(input, "MED")), question_(question), sorter_(mesh_) {}
+
+  MeshData read() {
+    find_mesh();
+    read_points();
+    read_blocks();
+    read_families();
+    number_groups();
+    add_elements();
+    add_groups();
+    read_fields();
+    note_the_rest();
+    mesh_.variant = kMed;
+    return std::move(mesh_);
+  }
+
+ private:
+  void remark(std::string_view what, const std::string& text, std::string_view about = {}) {
+    if (!text.empty()) mesh_.deck.push_back(med_remark_key(what, about) + '\0' + text);
+  }
+
+  void find_mesh() {
+    const std::int64_t major = file_->integer("INFOS_GENERALES", "MAJ");
+    const std::int64_t minor = file_->integer("INFOS_GENERALES", "MIN");
+    if (major < 3 || major > 4) {
+      file_->fail("INFOS_GENERALES",
+                  fmt::format("the file is of version {}.{} of MED: expected 3 or "
+                              "4, which MED's program medimport makes of older ones",
+                              major, minor));
+    }
+    const std::vector<std::string> meshes = file_->names("ENS_MAA");
+    if (meshes.size() != 1) {
+      file_->fail("ENS_MAA", fmt::format("the file has {} meshes: expected one", meshes.size()));
+    }
+    name_ = meshes[0];
+    const std::string path = "ENS_MAA/" + name_;
+    if (file_->integer(path, "TYP") != 0)
+      file_->fail(path, "the mesh is structured: expected tets");
+    if (file_->integer(path, "ESP") != 3) file_->fail(path, "the mesh does not lie in space");
+    remark("mesh", name_);
+    for (const char* what : {"NOM", "UNI", "UNT", "DES"}) remark(what, file_->text(path, what));
+    const std::vector<std::string> steps = file_->names(path);
+    if (steps.empty()) file_->fail(path, "the mesh is empty");
+    step_ = path + "/" + steps[0];
+    if (steps.size() > 1) {
+      mesh_.notes.push_back(
+          fmt::format("of the {} steps of the mesh only the first is kept", steps.size()));
+    } else if (file_->has(step_, "NDT") && file_->integer(step_, "NDT") != -1) {
+      mesh_.notes.emplace_back("the time of the mesh is not kept");
+    }
+  }
+
+  std::vector<std::int64_t> list(const std::string& path, std::size_t count) {
+    if (!file_->has(path)) return {};
+    std::vector<std::int64_t> values = file_->integers(path);
+    if (values.size() != count) {
+      file_->fail(path, fmt::format("the table has {} values: expected {}", values.size(), count));
+    }
+    return values;
+  }
+
+  std::vector<std::int64_t> families(const std::string& path, std::size_t count) {
+    std::vector<std::int64_t> all = list(path + "/FAM", count);
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      if (all[i] > INT32_MIN && all[i] <= INT32_MAX) continue;
+      file_->fail(path + "/FAM", fmt::format("'{}' is not the number of a family", all[i]));
+    }
+    return all;
+  }
+
+  void read_points() {
+    const std::string path = step_ + "/NOE";
+    const std::vector<double> all = file_->reals(path + "/COO");
+    const std::size_t count = all.size() / 3;
+    if (all.size() % 3 != 0)
+      file_->fail(path + "/COO", "the coordinates are not three for each point");
+    if (count > kMostVertices) file_->fail(path + "/COO", "the points are too many");
+    mesh_.points.resize(count);
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      const std::size_t point = i % count;
+      if (!std::isfinite(all[i])) {
+        file_->fail(path + "/COO",
+                    fmt::format("a coordinate of point {} is not finite", point + 1));
+      }
+      mesh_.points[point][static_cast<Eigen::Index>(i / count)] = all[i];
+    }
+    point_families_ = families(path, count);
+    mesh_.point_numbers = numbers(path, count);
+  }
+
+  std::vector<std::int64_t> numbers(const std::string& path, std::size_t count) {
+    std::vector<std::int64_t> all = list(path + "/NUM", count);
+    std::vector<std::int64_t> sorted = all;
+    std::sort(sorted.begin(), sorted.end());
+    const bool is_good =
+        sorted.empty() ||
+        (sorted[0] > 0 && std::adjacent_find(sorted.begin(), sorted.end()) == sorted.end());
+    if (!is_good)
+      mesh_.notes.push_back(fmt::format("the numbers in {} are not kept: they are not unique",
+                                        in_quotes("/" + path)));
+    if (file_->has(path + "/NOM")) {
+      mesh_.notes.push_back(
+          fmt::format("the names of points or elements in {} are not kept", in_quotes("/" + path)));
+    }
+    return is_good ? all : std::vector<std::int64_t>();
+  }
+
+  void read_blocks() {
+    const std::string path = step_ + "/MAI";
+    if (!file_->has(path)) return;
+    for (const std::string& name : file_->names(path)) {
+      const auto type = std::find_if(kMedTypes.begin(), kMedTypes.end(),
+                                     [&](const MedType& each) { return each.name == name; });
+      if (type != kMedTypes.end()) {
+        blocks_.push_back(read_block(*type, path + "/" + name));
+      } else if (std::find(kOtherVolumes.begin(), kOtherVolumes.end(), name) !=
+                 kOtherVolumes.end()) {
+        file_->fail(path + "/" + name, "volume elements of this type cannot be kept");
+      } else {
+        mesh_.notes.push_back(
+            fmt::format("elements of MED's type {} are not kept", in_quotes(name)));
+      }
+    }
+    std::sort(blocks_.begin(), blocks_.end(),
+              [](const MedBlock& a, const MedBlock& b) { return a.type < b.type; });
+  }
+
+  MedBlock read_block(const MedType& type, const std::string& path) {
+    MedBlock block;
+    block.type = &type;
+    block.path = path;
+    block.nodes = file_->integers(path + "/NOD");
+    const std::size_t width = block.kind().width;
+    block.count = block.nodes.size() / width;
+    if (block.nodes.size() % width != 0) {
+      file_->fail(path + "/NOD",
+                  fmt::format("{} numbers are not {} for each element", block.nodes.size(), width));
+    }
+    for (std::size_t i = 0; i < block.nodes.size(); ++i) {
+      if (block.nodes[i] >= 1 && block.nodes[i] <= static_cast<std::int64_t>(mesh_.points.size()))
+        continue;
+      file_->fail(path + "/NOD",
+                  fmt::format("'{}' in element {} is not the number of a node: expected 1 to {}",
+                              block.nodes[i], i % block.count + 1, mesh_.points.size()));
+    }
+    block.families = families(path, block.count);
+    block.numbers = numbers(path, block.count);
+    return block;
+  }
+
+  void read_families() {
+    const std::string path = "FAS/" + name_;
+    if (!file_->has(path)) return;
+    for (const bool of_nodes : {true, false}) {
+      const std::string all = path + (of_nodes ? "/NOEUD" : "/ELEME");
+      if (!file_->has(all)) continue;
+      for (const std::string& name : file_->names(all)) {
+        const std::string family = all + "/" + name;
+        const std::int64_t number = file_->integer(family, "NUM");
+        if (number <= INT32_MIN || number > INT32_MAX)
+          file_->fail(family, "the number of the family has more than 32 bits");
+        std::vector<std::string>& groups = groups_of_[of_nodes][static_cast<Label>(number)];
+        if (!file_->has(family + "/GRO/NOM")) continue;
+        for (std::string& group : file_->texts(family + "/GRO/NOM")) {
+          const bool is_new = std::find(groups.begin(), groups.end(), group) == groups.end();
+          if (is_new && !group.empty()) groups.push_back(std::move(group));
+        }
+      }
+    }
+  }
+
+  /// By dimension: groups of the families that elements have, each with a number. That is the number of its
+  /// first family, if it is free.
+  void number_groups() {
+    for (const MedBlock& block : blocks_) {
+      const auto dimension = static_cast<std::size_t>(block.kind().dimension);
+      for (const std::int64_t family : block.families)
+        used_[dimension].insert(static_cast<Label>(family));
+    }
+    for (std::size_t dimension = 1; dimension < used_.size(); ++dimension) {
+      take_labels(dimension);
+      for (auto family = used_[dimension].rbegin(); family != used_[dimension].rend(); ++family) {
+        add_family(dimension, *family);
+      }
+    }
+    for (const Label family : bare_families_)
+      remark("bare family", "yes", fmt::format("{}", family));
+    if (!used_[0].empty() && std::any_of(used_[0].begin(), used_[0].end(),
+                                         [&](Label family) { return has_groups(false, family); })) {
+      mesh_.notes.emplace_back("groups of elements that are points are not kept");
+    }
+    std::set<Label> known;
+    for (const std::set<Label>& used : used_) known.insert(used.begin(), used.end());
+    std::set<std::string> empty;
+    for (const auto& [family, names] : groups_of_[false]) {
+      if (!known.contains(family)) empty.insert(names.begin(), names.end());
+    }
+    for (const Group& group : mesh_.groups) empty.erase(group.name);
+    if (!empty.empty())
+      mesh_.notes.push_back(fmt::format("{} groups without elements are not kept, the first is {}",
+                                        empty.size(), in_quotes(*empty.begin())));
+  }
+
+  bool has_groups(bool of_nodes, Label family) const {
+    const auto found = groups_of_[of_nodes].find(family);
+    return found != groups_of_[of_nodes].end() && !found->second.empty();
+  }
+
+  /// No group gets the number of a label that has no group.
+  void take_labels(std::size_t dimension) {
+    for (const Label family : used_[dimension]) {
+      if (!has_groups(false, family)) {
+        numbers_[dimension].insert(-family);
+        continue;
+      }
+      for (const std::string& name : groups_of_[false].at(family)) {
+        if (Label label = 0; to_label(inp_key(name), label)) numbers_[dimension].insert(label);
+      }
+    }
+  }
+
+  void add_family(std::size_t dimension, Label family) {
+    std::map<Label, Label>& labels = label_of_[dimension];
+    if (!has_groups(false, family)) {
+      labels[family] = -family;
+      if (family != 0) bare_families_.insert(family);
+      return;
+    }
+    for (const std::string& name : groups_of_[false].at(family)) {
+      Label label = 0;
+      if (to_label(inp_key(name), label)) {
+        labels[family] = label;
+        continue;
+      }
+      const auto [at, is_new] = group_at_.try_emplace({dimension, name}, mesh_.groups.size());
+      if (is_new) mesh_.groups.push_back({static_cast<int>(dimension), 0, name, {}, {}});
+      Group& group = mesh_.groups[at->second];
+      if (is_new) group.number = free_number(dimension, family);
+      group.parts.push_back(family);
+      labels.try_emplace(family, group.number);
+    }
+  }
+
+  Label free_number(std::size_t dimension, Label family) {
+    std::set<Label>& taken = numbers_[dimension];
+    Label number = std::max(-family, 1);
+    while (!taken.insert(number).second) number = number == INT32_MAX ? 1 : number + 1;
+    return number;
+  }
+
+  /// Files of other writers may have tets as VTK has them: most have a positive volume then.
+  bool are_volumes_as_in_vtk() const {
+    std::size_t turned = 0;
+    std::size_t as_in_vtk = 0;
+    for (const MedBlock& block : blocks_) {
+      if (block.kind().dimension != 3 || block.kind().corners != 4) continue;
+      for (std::size_t i = 0; i < block.count; ++i) {
+        const auto point = [&](std::size_t k) {
+          return mesh_.points[static_cast<std::size_t>(block.nodes[k * block.count + i] - 1)];
+        };
+        const double volume = volume6(point(0), point(1), point(2), point(3));
+        turned += volume < 0 ? 1 : 0;
+        as_in_vtk += volume > 0 ? 1 : 0;
+      }
+    }
+    return as_in_vtk > turned;
+  }
+
+  void add_elements() {
+    const bool as_in_vtk = are_volumes_as_in_vtk();
+    if (as_in_vtk) remark("order", "VTK");
+    bool with_numbers = true;
+    std::set<std::int64_t> all;
+    for (const MedBlock& block : blocks_) {
+      with_numbers &= block.count == 0 || !block.numbers.empty();
+      for (const std::int64_t number : block.numbers) with_numbers &= all.insert(number).second;
+    }
+    const bool has_numbers = !all.empty();
+    const bool has_families =
+        std::any_of(blocks_.begin(), blocks_.end(),
+                    [](const MedBlock& block) { return !block.families.empty(); });
+    if (has_numbers && !with_numbers)
+      mesh_.notes.emplace_back("numbers of elements are not kept: not all have one of their own");
+    for (const MedBlock& block : blocks_) {
+      const ElementKind& kind = block.kind();
+      std::vector<Label>& parts = parts_of(kind);
+      const std::map<Label, Label>& labels = label_of_[static_cast<std::size_t>(kind.dimension)];
+      ElementRow row;
+      row.kind = &kind;
+      for (std::size_t i = 0; i < block.count; ++i) {
+        for (std::size_t k = 0; k < kind.width; ++k) {
+          const std::size_t from =
+              as_in_vtk || block.type->order[1] == 0 ? k : block.type->order[k];
+          row.vertices[k] = static_cast<std::uint32_t>(block.nodes[from * block.count + i] - 1);
+        }
+        const Label family = block.family(i);
+        const auto label = labels.find(family);
+        row.label = label == labels.end() ? -family : label->second;
+        row.number = block.numbers.empty() ? 0 : block.numbers[i];
+        sorter_.add(row, has_numbers && with_numbers);
+        if (has_families) parts.push_back(family);
+        if (question_ != nullptr && kind.vtk_type == vtk_tet &&
+            mesh_.tets.size() == question_->tet + 1) {
+          question_->place = fmt::format("{}: /{}: element {}", input_.name(), block.path, i + 1);
+        }
+      }
+    }
+  }
+
+  std::vector<Label>& parts_of(const ElementKind& kind) {
+    switch (kind.vtk_type) {
+      case vtk_tet:
+        return mesh_.tet_parts;
+      case vtk_triangle:
+        return mesh_.triangle_parts;
+      case vtk_edge:
+        return mesh_.edge_parts;
+      default:
+        return sorter_.others(kind).parts;
+    }
+  }
+
+  /// Of points: a family without groups is a label.
+  void add_groups() {
+    std::map<std::string, std::size_t> group_at;
+    mesh_.point_labels.assign(mesh_.points.size(), 0);
+    for (std::uint32_t i = 0; i < point_families_.size(); ++i) {
+      const auto family = static_cast<Label>(point_families_[i]);
+      if (!has_groups(true, family)) {
+        mesh_.point_labels[i] = family;
+        continue;
+      }
+      for (const std::string& name : groups_of_[true].at(family)) {
+        if (to_label(inp_key(name), mesh_.point_labels[i])) continue;
+        const auto [at, is_new] = group_at.try_emplace(name, mesh_.groups.size());
+        if (is_new) mesh_.groups.push_back({0, static_cast<Label>(group_at.size()), name, {}, {}});
+        mesh_.groups[at->second].members.push_back(i);
+      }
+    }
+    drop_zero_point_labels(mesh_);
+  }
+
+  void read_fields() {
+    if (!file_->has("CHA")) return;
+    for (const std::string& name : file_->names("CHA")) {
+      const std::string path = "CHA/" + name;
+      if (trimmed_text(file_->text(path, "MAI")) != name_) {
+        mesh_.notes.push_back(
+            fmt::format("the field {} is not kept: it is of another mesh", in_quotes(name)));
+        continue;
+      }
+      const std::vector<std::string> steps = file_->names(path);
+      if (steps.size() > 1) {
+        mesh_.notes.push_back(fmt::format("of the {} steps of the field {} only the first is kept",
+                                          steps.size(), in_quotes(name)));
+      }
+      if (steps.empty()) continue;
+      for (const char* what : {"NOM", "UNI", "UNT"}) remark(what, file_->text(path, what), name);
+      read_step(name, path + "/" + steps[0]);
+    }
+  }
+
+  void read_step(const std::string& name, const std::string& path) {
+    const std::int64_t components = file_->integer("CHA/" + name, "NCO");
+    if (components < 1 || components > 1000000)
+      file_->fail("CHA/" + name, "the number of components makes no sense");
+    remark("step",
+           fmt::format("{} {} {}", file_->integer(path, "NDT"), file_->integer(path, "NOR"),
+                       file_->real(path, "PDT")),
+           name);
+    for (const std::string& support : file_->names(path)) {
+      const std::string profile = trimmed_text(file_->text(path + "/" + support, "PFL"));
+      const std::string values = path + "/" + support + "/" + profile;
+      const auto block = std::find_if(blocks_.begin(), blocks_.end(), [&](const MedBlock& each) {
+        return "MAI." + std::string(each.type->name) == support;
+      });
+      const bool is_whole =
+          profile == kWholeMesh && file_->has(values, "NGA") && file_->integer(values, "NGA") == 1;
+      if ((support != "NOE" && block == blocks_.end()) || !is_whole) {
+        mesh_.notes.push_back(fmt::format("the values of the field {} for {} are not kept: {}",
+                                          in_quotes(name), in_quotes(support),
+                                          profile == kWholeMesh
+                                              ? "they are not one for each point or element"
+                                              : "they are of a part of the mesh"));
+        continue;
+      }
+      const std::size_t count = support == "NOE" ? mesh_.points.size() : block->count;
+      add_array(name, values + "/CO", count, static_cast<std::size_t>(components),
+                support == "NOE" ? mesh_.point_data : data_of(block->kind()));
+    }
+  }
+
+  std::vector<DataArray>& data_of(const ElementKind& kind) {
+    switch (kind.vtk_type) {
+      case vtk_tet:
+        return mesh_.tet_data;
+      case vtk_triangle:
+        return mesh_.triangle_data;
+      case vtk_edge:
+        return mesh_.edge_data;
+      default:
+        return sorter_.others(kind).data;
+    }
+  }
+
+  void add_array(const std::string& name, const std::string& path, std::size_t count,
+                 std::size_t components, std::vector<DataArray>& to) {
+    DataArray array;
+    array.name = name;
+    array.components = components;
+    array.values = file_->values(path);
+    if (array.size() != count * components || count == 0) {
+      file_->fail(path, fmt::format("the table has {} values: expected {} for each of {}",
+                                    array.size(), components, count));
+    }
+    std::visit(
+        [&](auto& values) {
+          auto turned = values;
+          for (std::size_t i = 0; i < values.size(); ++i)
+            turned[i % count * components + i / count] = values[i];
+          values = std::move(turned);
+        },
+        array.values);
+    to.push_back(std::move(array));
+  }
+
+  void note_the_rest() {
+    const auto note = [&](const std::string& group, std::initializer_list<std::string_view> known) {
+      for (const std::string& name : file_->names(group)) {
+        if (std::find(known.begin(), known.end(), name) != known.end()) continue;
+        mesh_.notes.push_back(
+            fmt::format("the section {} is not kept",
+                        in_quotes(group == "/" ? "/" + name : "/" + group + "/" + name)));
+      }
+    };
+    note("/", {"INFOS_GENERALES", "ENS_MAA", "FAS", "CHA", "PROFILS", "GAUSS"});
+    note(step_, {"NOE", "MAI"});
+  }
+
+  const InputFile& input_;
+  std::unique_ptr<Hdf5Reader> file_;
+  TetPlace* question_;
+  MeshData mesh_;
+  ElementSorter sorter_;
+  std::string name_;  // of the mesh
+  std::string step_;  // its path
+  std::vector<std::int64_t> point_families_;
+  std::vector<MedBlock> blocks_;
+  std::array<std::map<Label, std::vector<std::string>>, 2> groups_of_;  // by family; [1]: of nodes
+  // By dimension of elements:
+  std::array<std::set<Label>, 4> used_;  // families
+  std::array<std::map<Label, Label>, 4> label_of_;
+  std::set<Label> bare_families_;           // without groups
+  std::array<std::set<Label>, 4> numbers_;  // of groups
+  std::map<std::pair<std::size_t, std::string>, std::size_t> group_at_;
+};
+
+}  // namespace
+
+MeshData read_med(const std::filesystem::path& file, TetPlace* question) {
+  const InputFile input(file);
+  return Reader(input, question).read();
+}
+
+}  // namespace tetmend::formats

@@ -1,0 +1,520 @@
+// SPDX-License-Identifier: MIT
+// Writes MED files.
+#include <algorithm>
+#include <compare>
+#include <map>
+#include <memory>
+#include <span>
+#include <sstream>
+#include <string>
+#include <tuple>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "kernel/formats/element_rows.h"
+#include "kernel/formats/hdf5_file.h"
+#include "kernel/formats/inp_sets.h"
+#include "kernel/formats/med.h"
+#include "kernel/formats/output_file.h"
+#include "kernel/formats/set_chains.h"
+#include "kernel/formats/unique_names.h"
+#include "kernel/printable.h"
+
+namespace tetmend::formats {
+namespace {
+
+const std::string kWhole = "MED_NO_PROFILE_INTERNAL";
+constexpr std::int32_t kMedReal = 6;
+constexpr std::int32_t kMedInteger32 = 24;
+constexpr std::int32_t kMedInteger64 = 26;
+
+/// As a part of a path, of 64 bytes at most.
+std::string path_name(std::string name) {
+  std::replace(name.begin(), name.end(), '/', '!');
+  if (name.empty() || name == ".") name = "unnamed";
+  return name.substr(0, kMedName);
+}
+
+/// What elements have in common.
+struct FamilyKey {
+  int dimension = 0;
+  bool has_part = false;
+  Label part = 0;
+  Label label = 0;
+  std::uint32_t chain = 0;
+  friend auto operator<=>(const FamilyKey&, const FamilyKey&) = default;
+};
+
+/// Which points or elements have which groups in common, and what these are called.
+class MedFamilies {
+ public:
+  /// `data` may be null.
+  MedFamilies(const MeshData* data, const MedRemarks& remarks)
+      : data_(data), remarks_(remarks), is_med_(data != nullptr && data->variant == kMed) {}
+
+  /// In which groups that name their members these points or elements are.
+  std::vector<std::uint32_t> chains(int dimension, std::size_t count) {
+    std::vector<std::uint32_t> chain_of;
+    const std::uint32_t none = chains_.begin();
+    for (std::uint32_t g = 0; data_ != nullptr && g < data_->groups.size(); ++g) {
+      const Group& group = data_->groups[g];
+      if (group.dimension != dimension || group.members.empty()) continue;
+      chain_of.resize(count, none);
+      for (const std::uint32_t member : group.members) {
+        std::uint32_t& chain = chain_of[member];
+        if (chain == none || chains_.last(chain) != g) chain = chains_.with(chain, g);
+      }
+    }
+    if (chain_of.empty()) chain_of.resize(count, none);
+    return chain_of;
+  }
+
+  /// The place of a family, which gets its number in the end.
+  std::uint32_t place_of(const FamilyKey& key) {
+    if (keys_.empty() || last_ != key) {
+      const auto [at, is_new] = place_.try_emplace(key, static_cast<std::uint32_t>(keys_.size()));
+      if (is_new) keys_.push_back(key);
+      last_ = key;
+      last_place_ = at->second;
+    }
+    return last_place_;
+  }
+
+  /// Numbers and names of all; those of points are above 0, those of elements below.
+  struct Family {
+    std::int32_t number = 0;
+    std::vector<std::string> groups;
+  };
+  std::vector<Family> finish() {
+    std::vector<Family> families(keys_.size());
+    std::map<std::int32_t, std::vector<std::string>> taken;
+    for (std::size_t i = 0; i < keys_.size(); ++i) {
+      const FamilyKey& key = keys_[i];
+      families[i].groups = groups_of(key);
+      if (!is_med_ || !key.has_part || key.part >= 0) continue;
+      const auto [at, is_new] = taken.try_emplace(key.part, families[i].groups);
+      if (at->second == families[i].groups) families[i].number = key.part;
+    }
+    std::int32_t below = -1;
+    std::int32_t above = 1;
+    for (std::size_t i = 0; i < keys_.size(); ++i) {
+      const bool is_nothing = families[i].groups.empty() && keys_[i].label == 0;
+      if (families[i].number != 0 || is_nothing) continue;
+      while (taken.contains(below)) --below;
+      families[i].number = keys_[i].dimension == 0 ? above++ : below--;
+    }
+    return families;
+  }
+
+ private:
+  std::vector<std::string> groups_of(const FamilyKey& key) {
+    std::vector<std::string> names;
+    bool is_named = false;
+    for (std::uint32_t g = 0; data_ != nullptr && g < data_->groups.size(); ++g) {
+      const Group& group = data_->groups[g];
+      if (group.dimension != key.dimension) continue;
+      const bool is_label = key.label != 0 && group.number == key.label;
+      const bool has_part = key.has_part && std::find(group.parts.begin(), group.parts.end(),
+                                                      key.part) != group.parts.end();
+      const bool is_all = is_label && group.parts.empty() && group.members.empty();
+      if (has_part || is_all || (!group.members.empty() && chains_.has(key.chain, g))) {
+        names.push_back(cut(group.name.empty() ? label_name(group.number) : group.name));
+      }
+      is_named = is_named || is_label;
+    }
+    const bool is_bare =
+        is_med_ && key.has_part &&
+        remarks_.contains(med_remark_key("bare family", fmt::format("{}", key.part)));
+    if (key.label != 0 && !(is_named && key.dimension > 0) && !is_bare)
+      names.push_back(label_name(key.label));
+    return names;
+  }
+
+  /// Names of 80 bytes at most that are still different.
+  std::string cut(const std::string& name) {
+    if (is_med_name(name)) return name;
+    const auto [at, is_new] = cut_.try_emplace(name);
+    if (is_new) at->second = cut_names_.make(name.substr(0, kMedGroupName - 4));
+    return at->second;
+  }
+
+  const MeshData* data_;
+  const MedRemarks& remarks_;
+  bool is_med_;
+  SetChains chains_;
+  std::vector<FamilyKey> keys_;
+  std::map<FamilyKey, std::uint32_t> place_;
+  FamilyKey last_;
+  std::uint32_t last_place_ = 0;
+  std::map<std::string, std::string> cut_;
+  UniqueNames cut_names_;
+};
+
+/// New numbers above those that are there, all of which are different.
+class FillNumbers {
+ public:
+  void take(const std::vector<std::int64_t>& numbers) {
+    for (const std::int64_t number : numbers) most_ = std::max(most_, number);
+  }
+  std::int64_t operator()(std::int64_t number) { return number > 0 ? number : ++most_; }
+
+ private:
+  std::int64_t most_ = 0;
+};
+
+class Writer {
+ public:
+  Writer(const std::filesystem::path& file, const MeshView& mesh)
+      : out_(file),
+        file_(make_hdf5(file.string(), "MED")),
+        mesh_(mesh),
+        lists_(mesh),
+        remarks_(mesh.data() == nullptr ? MedRemarks() : med_remarks(*mesh.data())),
+        families_(mesh.data(), remarks_) {}
+
+  void write() {
+    begin_mesh();
+    write_points();
+    write_elements();
+    write_families();
+    write_fields();
+    out_.put(file_->bytes());
+    out_.commit(mesh_.companions());
+  }
+
+ private:
+  std::string remark(std::string_view what, std::string_view otherwise,
+                     std::string_view about = {}) const {
+    const auto found = remarks_.find(med_remark_key(what, about));
+    return found == remarks_.end() ? std::string(otherwise) : found->second;
+  }
+
+  void begin_mesh() {
+    file_->group("INFOS_GENERALES");
+    file_->set("INFOS_GENERALES", "MAJ", 3);  // which programs with MED 4 read, too
+    file_->set("INFOS_GENERALES", "MIN", 0);
+    file_->set("INFOS_GENERALES", "REL", 0);
+    name_ = path_name(remark("mesh", "mesh"));
+    const std::string path = "ENS_MAA/" + name_;
+    file_->group(path);
+    for (const char* what : {"DIM", "ESP"}) file_->set(path, what, 3);
+    for (const char* what : {"REP", "TYP"}) file_->set(path, what, 0);
+    file_->set(path, "SRT", 1);
+    for (const char* what : {"NXT", "NXI"}) file_->set(path, what, -1);
+    file_->set(path, "NOM", remark("NOM", fmt::format("{:<16}{:<16}{:<16}", "x", "y", "z")));
+    file_->set(path, "UNI", remark("UNI", std::string(48, ' ')));
+    file_->set(path, "UNT", remark("UNT", ""));
+    file_->set(path, "DES", remark("DES", ""));
+    step_ = path + "/-0000000000000000001-0000000000000000001";
+    file_->group(step_);
+    for (const char* what : {"NDT", "NOR", "NXT", "NXI", "PVT", "PVI"}) file_->set(step_, what, -1);
+    file_->set(step_, "PDT", -1.0);
+    file_->set(step_, "CGT", 1);
+  }
+
+  void begin_support(const std::string& path) {
+    file_->group(path);
+    file_->set(path, "CGT", 1);
+    file_->set(path, "CGS", 1);
+    file_->set(path, "PFL", kWhole);
+  }
+  void write_list(const std::string& path, DataArray::Values values, std::size_t count) {
+    file_->write(path, values);
+    file_->set(path, "CGT", 1);
+    file_->set(path, "NBR", static_cast<std::int32_t>(count));
+  }
+  /// With 32 bits where they do, as MED has integers.
+  static DataArray::Values integers(std::vector<std::int64_t> values) {
+    if (std::all_of(values.begin(), values.end(),
+                    [](std::int64_t value) { return value <= INT32_MAX; })) {
+      return std::vector<std::int32_t>(values.begin(), values.end());
+    }
+    return values;
+  }
+
+  void write_points() {
+    const std::size_t count = mesh_.point_count();
+    const std::string path = step_ + "/NOE";
+    begin_support(path);
+    std::vector<double> all(3 * count);
+    for (std::size_t i = 0; i < count; ++i) {
+      const Point point = mesh_.point(i);
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        all[axis * count + i] = point[static_cast<Eigen::Index>(axis)];
+    }
+    write_list(path + "/COO", std::move(all), count);
+    const std::vector<std::uint32_t> chains = families_.chains(0, count);
+    point_places_.resize(count);
+    for (std::size_t i = 0; i < count; ++i)
+      point_places_[i] = families_.place_of({0, false, 0, mesh_.point_label(i), chains[i]});
+    if (mesh_.data() != nullptr && mesh_.data()->point_numbers.size() == count) {
+      std::vector<std::int64_t> numbers = mesh_.data()->point_numbers;
+      FillNumbers fill;
+      fill.take(numbers);
+      for (std::int64_t& number : numbers) number = fill(number);
+      if (count > 0) write_list(path + "/NUM", integers(std::move(numbers)), count);
+    }
+  }
+
+  /// All elements of one type.
+  struct Block {
+    const MedType* type = nullptr;
+    std::vector<const ElementList*> lists;
+    std::size_t count = 0;
+    std::vector<std::uint32_t> places;  // of families
+
+    std::string path(const std::string& step) const {
+      return step + "/MAI/" + std::string(type->name);
+    }
+  };
+
+  void write_elements() {
+    for (const MedType& type : kMedTypes) {
+      Block block;
+      block.type = &type;
+      for (const ElementList& list : lists_.all()) {
+        if (list.kind.vtk_type != type.vtk_type) continue;
+        block.lists.push_back(&list);
+        block.count += list.count;
+      }
+      if (block.count > 0) blocks_.push_back(std::move(block));
+    }
+    if (blocks_.empty()) return;
+    file_->group(step_ + "/MAI");
+    file_->set(step_ + "/MAI", "CGT", 1);
+    FillNumbers fill;
+    bool with_numbers = true;
+    for (const ElementList& list : lists_.all()) {
+      with_numbers = with_numbers && list.numbers != nullptr;
+      if (with_numbers) fill.take(*list.numbers);
+    }
+    for (Block& block : blocks_) {
+      write_block(block);
+      if (with_numbers) write_numbers(block, fill);
+    }
+  }
+
+  void write_block(Block& block) {
+    begin_support(block.path(step_));
+    file_->set(block.path(step_), "GEO", block.type->number);
+    const std::size_t width = element_kind(block.type->vtk_type)->width;
+    const bool as_in_vtk = remark("order", "") == "VTK" || block.type->order[1] == 0;
+    std::vector<std::int64_t> nodes(block.count * width);
+    std::size_t done = 0;
+    for (const ElementList* list : block.lists) {
+      for (std::size_t i = 0; i < list->count; ++i, ++done) {
+        const std::span<const std::uint32_t> vertices = list->vertices(i);
+        for (std::size_t k = 0; k < width; ++k) {
+          nodes[k * block.count + done] =
+              std::int64_t{vertices[as_in_vtk ? k : block.type->order[k]]} + 1;
+        }
+      }
+      assign(*list, block.places);
+    }
+    write_list(block.path(step_) + "/NOD", integers(std::move(nodes)), block.count);
+  }
+
+  /// Lists of other elements are in groups by their parts and labels alone.
+  void assign(const ElementList& list, std::vector<std::uint32_t>& places) {
+    const int dimension = list.kind.dimension;
+    const std::vector<std::uint32_t> chains =
+        families_.chains(list.others == nullptr ? dimension : -1, list.count);
+    for (std::size_t i = 0; i < list.count; ++i) {
+      const bool has_part = list.parts != nullptr;
+      places.push_back(
+          families_.place_of({std::max(dimension, 1), has_part, has_part ? (*list.parts)[i] : 0,
+                              list.label(i), chains[i]}));
+    }
+  }
+
+  void write_numbers(const Block& block, FillNumbers& fill) {
+    std::vector<std::int64_t> numbers;
+    for (const ElementList* list : block.lists) {
+      for (const std::int64_t number : *list->numbers) numbers.push_back(fill(number));
+    }
+    write_list(block.path(step_) + "/NUM", integers(std::move(numbers)), block.count);
+  }
+
+  void write_families() {
+    const std::vector<MedFamilies::Family> all = families_.finish();
+    const auto write = [&](const std::string& path, const std::vector<std::uint32_t>& places) {
+      std::vector<std::int32_t> numbers;
+      for (const std::uint32_t place : places) numbers.push_back(all[place].number);
+      if (std::all_of(numbers.begin(), numbers.end(),
+                      [](std::int32_t number) { return number == 0; }))
+        return;
+      write_list(path + "/FAM", numbers, places.size());
+    };
+    write(step_ + "/NOE", point_places_);
+    for (const Block& block : blocks_) write(block.path(step_), block.places);
+    const std::string path = "FAS/" + name_;
+    file_->group(path + "/FAMILLE_ZERO");
+    file_->set(path + "/FAMILLE_ZERO", "NUM", 0);
+    std::map<std::int32_t, const MedFamilies::Family*> sorted;
+    for (const MedFamilies::Family& family : all) sorted[family.number] = &family;
+    for (const auto& [number, family] : sorted) {
+      if (number != 0) write_family(path + (number > 0 ? "/NOEUD/" : "/ELEME/"), *family);
+    }
+  }
+
+  void write_family(const std::string& folder, const MedFamilies::Family& family) {
+    std::string name = fmt::format("FAM_{}", family.number);
+    for (const std::string& group : family.groups) name += "_" + group;
+    const std::string path = folder + path_name(name);
+    file_->group(path);
+    file_->set(path, "NUM", family.number);
+    if (family.groups.empty()) return;
+    file_->group(path + "/GRO");
+    file_->set(path + "/GRO", "NBR", static_cast<std::int32_t>(family.groups.size()));
+    file_->write_texts(path + "/GRO/NOM", family.groups, kMedGroupName);
+  }
+
+  void write_fields() {
+    if (mesh_.data() == nullptr) return;
+    for (const DataArray& array : mesh_.data()->point_data)
+      write_field(array, "NOE", mesh_.point_count());
+    for (const Block& block : blocks_) {
+      if (block.lists.size() > 1) continue;  // see not_in_med()
+      for (const DataArray& array : *block.lists[0]->data) {
+        write_field(array, "MAI." + std::string(block.type->name), block.count);
+      }
+    }
+  }
+
+  void write_field(const DataArray& array, const std::string& support, std::size_t count) {
+    const std::string path = field_of(array) + "/" + support;
+    file_->group(path);
+    file_->set(path, "GAU", "");
+    file_->set(path, "PFL", kWhole);
+    const std::string values = path + "/" + kWhole;
+    file_->group(values);
+    file_->set(values, "GAU", "");
+    file_->set(values, "NBR", static_cast<std::int32_t>(count));
+    file_->set(values, "NGA", 1);
+    const auto turned = [&](const auto& from, auto to) {
+      to.resize(from.size());
+      for (std::size_t i = 0; i < from.size(); ++i)
+        to[i % array.components * count + i / array.components] = from[i];
+      file_->write(values + "/CO", std::move(to));
+    };
+    std::visit(
+        [&](const auto& from) {
+          using Values = std::decay_t<decltype(from)>;
+          if constexpr (std::is_same_v<Values, std::vector<float>>) {
+            turned(from, std::vector<double>());
+          } else {
+            turned(from, Values());
+          }
+        },
+        array.values);
+  }
+
+  /// The path of the step of its field, which is made if need be. Arrays of one name share one, if they are alike.
+  std::string field_of(const DataArray& array) {
+    const std::int32_t type = array.values.index() == 0   ? kMedInteger32
+                              : array.values.index() == 1 ? kMedInteger64
+                                                          : kMedReal;
+    const auto [at, is_new] = fields_.try_emplace({array.name, type, array.components});
+    if (!is_new) return at->second;
+    const std::string path = "CHA/" + field_names_.make(path_name(array.name));
+    const auto width = static_cast<std::int32_t>(array.components);
+    file_->group(path);
+    file_->set(path, "MAI", name_);
+    file_->set(path, "TYP", type);
+    file_->set(path, "NCO", width);
+    const std::string blanks(16 * array.components, ' ');
+    for (const char* what : {"NOM", "UNI"})
+      file_->set(path, what, remark(what, blanks, array.name));
+    file_->set(path, "UNT", remark("UNT", "", array.name));
+    std::istringstream step(remark("step", "-1 -1 0", array.name));
+    std::int32_t number = -1;
+    std::int32_t order = -1;
+    double time = 0;
+    step >> number >> order >> time;
+    at->second = fmt::format("{}/{:020}{:020}", path, number, order);
+    file_->group(at->second);
+    file_->set(at->second, "NDT", number);
+    file_->set(at->second, "NOR", order);
+    file_->set(at->second, "PDT", time);
+    for (const char* what : {"RDT", "ROR"}) file_->set(at->second, what, -1);
+    return at->second;
+  }
+
+  OutputFile out_;
+  std::unique_ptr<Hdf5Writer> file_;
+  const MeshView& mesh_;
+  ElementLists lists_;
+  MedRemarks remarks_;
+  MedFamilies families_;
+  std::string name_;  // of the mesh
+  std::string step_;  // its path
+  std::vector<std::uint32_t> point_places_;
+  std::vector<Block> blocks_;
+  std::map<std::tuple<std::string, std::int32_t, std::size_t>, std::string> fields_;
+  UniqueNames field_names_;
+};
+
+}  // namespace
+
+bool is_med_name(std::string_view name) {
+  return name.size() <= kMedGroupName && !name.ends_with(' ');
+}
+
+std::string med_remark_key(std::string_view what, std::string_view about) {
+  return about.empty() ? std::string(what) : fmt::format("{} of {}", what, about);
+}
+
+MedRemarks med_remarks(const MeshData& mesh) {
+  MedRemarks remarks;
+  if (mesh.variant != kMed) return remarks;
+  for (const std::string& piece : mesh.deck) {
+    const std::size_t end = piece.find('\0');
+    if (end != std::string::npos) remarks[piece.substr(0, end)] = piece.substr(end + 1);
+  }
+  return remarks;
+}
+
+std::size_t med_remarks_to_miss(const MeshData& mesh) {
+  std::size_t count = 0;
+  for (const auto& [what, text] : med_remarks(mesh)) {
+    const bool is_form = what == "mesh" || what == "order" || what.starts_with("bare family");
+    const bool is_blank = text.find_first_not_of(' ') == std::string::npos;
+    count += is_form || is_blank ? 0 : 1;
+  }
+  return count;
+}
+
+std::vector<std::string> not_in_med(const std::filesystem::path&, const MeshData& mesh) {
+  std::vector<std::string> notes;
+  const auto look = [&](const std::vector<DataArray>& arrays) {
+    for (const DataArray& array : arrays) {
+      const bool is_kept =
+          array.name.size() <= kMedName && array.name.find('/') == std::string::npos;
+      if (!is_kept)
+        notes.push_back(
+            fmt::format("the name of the array '{}' is not kept as it is: .med has other rules",
+                        printable(array.name)));
+    }
+  };
+  look(mesh.point_data);
+  look(mesh.tet_data);
+  std::map<int, std::size_t> lists;
+  for (const OtherElements& others : mesh.other_elements) {
+    if (!others.data.empty() && ++lists[others.vtk_type] == 2) {
+      notes.push_back(
+          fmt::format("arrays of elements of VTK's type {} are not kept: .med has one "
+                      "list of them",
+                      others.vtk_type));
+    }
+  }
+  return notes;
+}
+
+void write_med(const std::filesystem::path& file, const MeshView& mesh) {
+  Writer(file, mesh).write();
+}
+
+}  // namespace tetmend::formats
