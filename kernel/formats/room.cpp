@@ -160,8 +160,9 @@ std::vector<std::string> lost_in(const Room& room, const std::string& extension,
   notes.lost(room.low_labels, low_labels(mesh), "labels below 1 are");
   notes.lost(room.point_labels, several_labels(mesh), "labels of points are");
   note_groups(room, mesh, notes);
-  notes.lost(room.groups || by_labels, mesh.entities.size(), "entities of the geometry are");
-  notes.lost(room.groups || room.periodic, mesh.periodic.size(), "periodic links are");
+  const bool has_geometry = room.groups && room.geometry;
+  notes.lost(has_geometry || by_labels, mesh.entities.size(), "entities of the geometry are");
+  notes.lost(has_geometry || room.periodic, mesh.periodic.size(), "periodic links are");
   notes.lost(room.second_order, mesh.mid_nodes.size(), "mid-side nodes of curved elements are");
   notes.lost(room.required_vertices || has_deck, mesh.required_vertices.size(),
              "required vertices are");

@@ -12,9 +12,10 @@ namespace tetmend::formats {
 
 /// What of a MeshData a format can hold besides points, tets and triangles.
 struct Room {
-  bool data = false;    ///< named arrays
-  bool groups = false;  ///< with names and parts, entities and periodic links
-  bool others = false;  ///< elements of other kinds
+  bool data = false;     ///< named arrays
+  bool groups = false;   ///< with names and parts
+  bool geometry = true;  ///< with groups: entities and periodic links, too
+  bool others = false;   ///< elements of other kinds
   bool required_vertices = false;
   bool second_order = false;       ///< as elements of other kinds
   bool second_order_edges = true;  ///< else only in a mesh with a deck of the format
