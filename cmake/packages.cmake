@@ -56,7 +56,7 @@ tetmend_package(development libtetmend-dev libdevel "improvement of tetrahedral 
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SUGGESTS "libeigen3-dev, tetmend")
 if(TARGET tetmend)
   tetmend_package(program tetmend science "improvement of tetrahedral meshes - command line"
-    "tetmend improves tetrahedral meshes.\n${surface_stays}\nIt reads and writes the files of Gmsh, VTK, MEDIT, TetGen, SU2, Netgen,\nNastran, Abaqus, CalculiX, Elmer and Salome.")
+    "tetmend improves tetrahedral meshes.\n${surface_stays}\nIt reads and writes the files of Gmsh, VTK, MEDIT, TetGen, SU2, Netgen,\nNastran, Abaqus, CalculiX, LS-DYNA, FEBio, MFEM, Elmer, Salome, and universal files.")
   set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS "tetmend-viewer")
 endif()
 if(TARGET tetmend-view)

@@ -25,7 +25,8 @@ BUILD = SOURCE / "build" / "checked"
 TARGETS = {
     "mesh": "MEDIT files", "meshb": "binary MEDIT files", "node": "sets of TetGen files", "vtk": "legacy VTK files",
     "vtu": "VTK XML files", "msh": "Gmsh files", "inp": "Abaqus decks", "su2": "SU2 files", "vol": "Netgen files",
-    "bdf": "Nastran files", "header": "folders of Elmer", "trace": "traces, byte for byte",
+    "bdf": "Nastran files", "header": "folders of Elmer", "unv": "universal files", "mfem": "meshes of MFEM",
+    "k": "LS-DYNA decks", "feb": "models of FEBio", "trace": "traces, byte for byte",
     "trace_events": "traces with sound checksums", "lesson": "lessons", "schedule": "Lua scripts",
     "options": "options and regions", "parameters": "settings of operators", "plugin": "descriptions of plugins",
     "improve": "the whole improver, with a judge", "checkpoint": "damaged folders of runs in pieces",

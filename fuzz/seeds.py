@@ -158,6 +158,13 @@ WORDS = {
     "vol": "mesh3d dimension geomtype surfaceelements volumeelements points edgesegmentsgi2 pointelements materials bcnames "
            "cd2names identifications endmesh",
     "bdf": "GRID GRID* CTETRA CTETRA* CTRIA3 CPENTA CHEXA CPYRAM PSOLID SET BEGIN BULK ENDDATA CORD2R CORD1C GRDSET INCLUDE PLOAD4",
+    "unv": "-1 2411 781 15 2412 780 2467 2477 2452 2435 2430 164 2420 111 118 91 92 21 24 11 1.0D+00",
+    "mfem": "MFEM mesh v1.0 v1.3 dimension elements attribute_sets boundary bdr_attribute_sets vertices nodes mfem_mesh_end "
+            "FiniteElementSpace FiniteElementCollection: H1_3D_P2 H1_3D_P1 VDim: Ordering:",
+    "k": "*KEYWORD LONG=Y I10=Y *NODE *ELEMENT_SOLID *ELEMENT_SHELL *PART *SET_SOLID _TITLE _GENERATE *SET_NODE_LIST "
+         "*SET_SEGMENT *BOUNDARY_SPC_NODE *INCLUDE *END",
+    "feb": "febio_spec Mesh Geometry Nodes node Elements elem type= name= id= mat= tet4 tet10 hex8 tri3 tri6 quad4 Surface "
+           "NodeSet ElementSet MeshDomains MeshData ElementData",
 }
 
 

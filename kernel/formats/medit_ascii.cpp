@@ -19,6 +19,7 @@
 #include "kernel/formats/medit_elements.h"
 #include "kernel/formats/medit_marks.h"
 #include "kernel/formats/medit_vectors.h"
+#include "kernel/formats/mfem.h"
 #include "kernel/formats/output_rows.h"
 #include "kernel/formats/text_reader.h"
 #include "kernel/formats/text_rows.h"
@@ -165,10 +166,6 @@ class Reader {
     }
     const std::string_view first = text_.word();
     if (first != "MeshVersionFormatted") {
-      if (first == "MFEM") {
-        text_.fail(
-            "this is a mesh of MFEM, not of MEDIT: its own programs save it as .vtk or .vtu");
-      }
       if (first == "%" && text_.word() == "GETFEM") {
         text_.fail("this is a mesh of GetFEM, not of MEDIT: GetFEM exports it as .vtk or .vtu");
       }
@@ -451,6 +448,7 @@ void write_elements(OutputFile& out, std::string_view name, std::span<const Elem
 
 MeshData read_medit_ascii(const std::filesystem::path& file, TetPlace* question) {
   const InputFile input(file);
+  if (looks_like_mfem(input)) return read_mfem(input, question);
   return Reader(input, question).read();
 }
 

@@ -17,13 +17,16 @@
 #include "kernel/error.h"
 #include "kernel/formats/degenerate.h"
 #include "kernel/formats/elmer.h"
+#include "kernel/formats/febio.h"
 #include "kernel/formats/gmsh.h"
 #include "kernel/formats/hdf5_file.h"
 #include "kernel/formats/inp.h"
+#include "kernel/formats/lsdyna.h"
 #include "kernel/formats/med.h"
 #include "kernel/formats/medit_ascii.h"
 #include "kernel/formats/medit_binary.h"
 #include "kernel/formats/medit_elements.h"
+#include "kernel/formats/mfem.h"
 #include "kernel/formats/nastran.h"
 #include "kernel/formats/netgen.h"
 #include "kernel/formats/packed_file.h"
@@ -32,6 +35,7 @@
 #include "kernel/formats/su2.h"
 #include "kernel/formats/tet_place.h"
 #include "kernel/formats/tetgen.h"
+#include "kernel/formats/unv.h"
 #include "kernel/formats/vtk_legacy.h"
 #include "kernel/formats/vtk_roles.h"
 #include "kernel/formats/vtu.h"
@@ -61,7 +65,7 @@ MeshData read_plain(const std::filesystem::path& file, const formats::ReadReques
   return Read(file, request.question);
 }
 
-constexpr std::array<MeshFormat, 14> kFormatsTable = {{{"MEDIT ASCII", ".mesh"},
+constexpr std::array<MeshFormat, 19> kFormatsTable = {{{"MEDIT ASCII", ".mesh"},
                                                        {"MEDIT binary", ".meshb"},
                                                        {"TetGen", ".node"},
                                                        {"TetGen", ".ele"},
@@ -74,6 +78,11 @@ constexpr std::array<MeshFormat, 14> kFormatsTable = {{{"MEDIT ASCII", ".mesh"},
                                                        {"Nastran", ".bdf"},
                                                        {"Nastran", ".nas"},
                                                        {"Elmer", ".header"},
+                                                       {"I-DEAS universal", ".unv"},
+                                                       {"MFEM", ".mfem"},
+                                                       {"LS-DYNA", ".k"},
+                                                       {"LS-DYNA", ".key"},
+                                                       {"FEBio", ".feb"},
                                                        {"MED", ".med"}}};
 
 constexpr std::size_t kOfHdf5 = 1;  // the last of them
@@ -140,8 +149,47 @@ constexpr Room kMedRoom = {.data = true,
                            .takes_name = formats::is_med_name,
                            .deck = formats::kMed};
 
+constexpr Room kUnvRoom = {.groups = true,
+                           .geometry = false,
+                           .others = true,
+                           .second_order = true,
+                           .point_labels = false,
+                           .holds = formats::unv_holds,
+                           .takes_name = formats::is_unv_name,
+                           .own_arrays = "unv:",
+                           .deck = formats::kUnv};
+
+constexpr Room kMfemRoom = {.groups = true,
+                            .geometry = false,
+                            .others = true,
+                            .second_order = true,
+                            .point_labels = false,
+                            .edges = false,
+                            .holds = formats::mfem_holds,
+                            .takes_name = formats::is_mfem_name,
+                            .low_labels = false};
+
+constexpr Room kLsDynaRoom = {.groups = true,
+                              .geometry = false,
+                              .others = true,
+                              .second_order = true,
+                              .point_labels = false,
+                              .edges = false,
+                              .holds = formats::lsdyna_holds,
+                              .takes_name = formats::is_lsdyna_name,
+                              .low_labels = false,
+                              .deck = formats::kLsDyna};
+constexpr Room kFebioRoom = {.groups = true,
+                             .geometry = false,
+                             .others = true,
+                             .second_order = true,
+                             .point_labels = false,
+                             .edges = false,
+                             .holds = formats::febio_holds,
+                             .deck = formats::kFebio};
+
 // In the order of formats_table.
-constexpr std::array<Codec, 14> kCodecs = {
+constexpr std::array<Codec, 19> kCodecs = {
     {{read_plain<formats::read_medit_ascii>, formats::write_medit_ascii, kMeditRoom},
      {read_plain<formats::read_medit_binary>, formats::write_medit_binary, kMeditRoom},
      {read_plain<formats::read_tetgen>, formats::write_tetgen, kTetgenRoom, true},
@@ -157,6 +205,13 @@ constexpr std::array<Codec, 14> kCodecs = {
      {read_plain<formats::read_nastran>, formats::write_nastran, kNastranRoom, false,
       formats::not_in_nastran},
      {read_plain<formats::read_elmer>, formats::write_elmer, kElmerRoom, true},
+     {read_plain<formats::read_unv>, formats::write_unv, kUnvRoom},
+     {read_plain<formats::read_mfem>, formats::write_mfem, kMfemRoom, false, formats::not_in_mfem},
+     {read_plain<formats::read_lsdyna>, formats::write_lsdyna, kLsDynaRoom, false,
+      formats::not_in_lsdyna},
+     {read_plain<formats::read_lsdyna>, formats::write_lsdyna, kLsDynaRoom, false,
+      formats::not_in_lsdyna},
+     {read_plain<formats::read_febio>, formats::write_febio, kFebioRoom},
      {read_plain<formats::read_med>, formats::write_med, kMedRoom, false, formats::not_in_med}}};
 
 /// Of "part.VTU.gz" that is ".vtu".
@@ -185,6 +240,12 @@ const Codec& find_codec(const std::filesystem::path& file) {
   }
   throw Error(fmt::format("{}: the extension '{}' is not that of a mesh format: expected one of {}",
                           file.string(), file.extension().string(), valid));
+}
+
+/// A mesh of MFEM stays one under the name .mesh, too.
+const Codec& codec_to_write(const std::filesystem::path& file, std::string_view variant) {
+  const bool is_mfems = variant == formats::kMfem && format_extension(file) == ".mesh";
+  return find_codec(is_mfems ? std::filesystem::path("a.mfem") : file);
 }
 
 }  // namespace
@@ -225,7 +286,7 @@ std::string locate_tet(const std::filesystem::path& file, std::size_t tet) {
 }
 
 std::vector<std::string> not_written(const std::filesystem::path& file, const MeshData& mesh) {
-  const Codec& codec = find_codec(file);
+  const Codec& codec = codec_to_write(file, mesh.variant);
   std::vector<std::string> notes = formats::lost_in(codec.room, format_extension(file), mesh);
   if (codec.lost == nullptr) return notes;
   for (std::string& note : codec.lost(file, mesh)) notes.push_back(std::move(note));
@@ -277,7 +338,7 @@ void write_mesh(const std::filesystem::path& file, const MeshData& mesh) {
 
 void write_mesh(const std::filesystem::path& file, const MeshView& mesh) {
   formats::check_packing_to_write(file);
-  const Codec& codec = find_codec(file);
+  const Codec& codec = codec_to_write(file, mesh.variant());
   if (mesh.data() == nullptr || mesh.data()->mid_nodes.empty()) return codec.write(file, mesh);
   const formats::Room& room = codec.room;
   const bool has_marks = room.groups || room.marks || room.named_labels != 0;

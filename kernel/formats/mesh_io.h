@@ -28,6 +28,7 @@ std::span<const MeshFormat> mesh_formats();
 /// `.edge` beside it when present), `.vtk` legacy VTK, ASCII or binary, of version 1.0 to 5.1,
 /// `.vtu` VTK XML, `.msh` Gmsh, ASCII or binary, of version 2.2 or 4.1, `.inp` a deck of Abaqus or
 /// CalculiX, `.su2` SU2, `.vol` Netgen, `.bdf` or `.nas` Nastran, `.header` a folder of Elmer,
+/// `.unv` I-DEAS universal, `.mfem` MFEM, as `.mesh` may be, `.k` or `.key` LS-DYNA, `.feb` FEBio,
 /// `.med` MED of Salome.
 /// What the file holds beyond MeshData is named in its `notes`, and so are degenerate elements, see
 /// formats/degenerate.h. Volume elements that cannot be kept are an error.
@@ -69,8 +70,8 @@ std::string format_name(const std::filesystem::path& file);
 /// Writes a mesh in the format of the extension. A TetGen path (`.node` or `.ele`) writes `.node`,
 /// `.ele` and `.face`, and `.edge` if there are edges or an older such file; that of Elmer (`.header`) its
 /// folder. Doubles are written so
-/// that reading gives the same bits. Required vertices: see docs/formats.md. `.msh` has the
-/// version and coding that `variant` of the data names, else 4.1 binary. A file appears
+/// that reading gives the same bits. Required vertices: see docs/formats.md. A mesh of MFEM
+/// stays one as `.mesh`. `.msh` has the version and coding that `variant` of the data names, else 4.1 binary. A file appears
 /// under its name only when complete, see PendingFile, so a failure leaves an older file untouched,
 /// and of several files all.
 /// Precondition: vertex numbers are in range, coordinates finite, and `point_labels` is empty or

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT
+// Keyword files of LS-DYNA, `.k` and `.key`: the mesh of a deck, with all else word for word.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "kernel/formats/element_kinds.h"
+#include "kernel/formats/tet_place.h"
+#include "kernel/mesh_data.h"
+#include "kernel/mesh_view.h"
+
+namespace tetmend::formats {
+
+/// MeshData::variant of such a mesh. The first piece of its deck are deck_remarks(), the second says
+/// how wide fields are; the others follow the file, each with a letter of LsDynaPiece in front.
+inline constexpr std::string_view kLsDyna = "LS-DYNA";
+inline constexpr std::size_t kLsDynaPieces = 2;  ///< before those of the file
+
+enum LsDynaPiece : char {
+  lsdyna_text = 'T',      ///< word for word
+  lsdyna_nodes = 'N',     ///< all nodes; behind it comments
+  lsdyna_elements = 'E',  ///< all solids; likewise
+  lsdyna_set = 'S',  ///< a set of solids: its number in `groups`, then its lines up to the members
+  lsdyna_node_set = 'M',  ///< a set of nodes, likewise
+  lsdyna_point = 'P'      ///< a node that says more than its place, word for word; at the end
+};
+
+/// Characters of a field of *NODE and *ELEMENT.
+struct LsDynaWidths {
+  std::size_t integer = 8;
+  std::size_t real = 16;
+};
+
+/// Which kinds of elements it has.
+inline bool lsdyna_holds(int vtk_type) {
+  switch (vtk_type) {
+    case vtk_quad:
+    case vtk_hexahedron:
+    case vtk_prism:
+    case vtk_pyramid:
+    case vtk_triangle6:
+    case vtk_quad8:
+    case vtk_tet10:
+      return true;
+    default:
+      return false;
+  }
+}
+
+/// The eight nodes of a solid that is no hexahedron, by the vertices of VTK: some stand there twice.
+inline constexpr std::array<std::uint8_t, 8> kLsDynaTet = {0, 1, 2, 3, 3, 3, 3, 3};
+inline constexpr std::array<std::uint8_t, 8> kLsDynaPyramid = {0, 1, 2, 3, 4, 4, 4, 4};
+inline constexpr std::array<std::uint8_t, 8> kLsDynaPrism = {0, 2, 5, 3, 1, 1, 4, 4};
+inline constexpr std::array<std::uint8_t, 8> kLsDynaHexahedron = {0, 1, 2, 3, 4, 5, 6, 7};
+
+/// A title of one line that opens neither a keyword nor a comment.
+bool is_lsdyna_name(std::string_view name);
+
+/// Numbers of parts are labels. Points that lines which are kept word for word name become required
+/// vertices; shells and segments of sets are triangles, and stay in the deck. @throws Error
+MeshData read_lsdyna(const std::filesystem::path& file, TetPlace* question = nullptr);
+
+/// @throws Error
+void write_lsdyna(const std::filesystem::path& file, const MeshView& mesh);
+
+/// What it cannot hold of a mesh, one sentence each.
+std::vector<std::string> not_in_lsdyna(const std::filesystem::path& file, const MeshData& mesh);
+
+}  // namespace tetmend::formats

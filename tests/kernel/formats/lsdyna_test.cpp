@@ -1,0 +1,236 @@
+// SPDX-License-Identifier: MIT
+// Keyword files of LS-DYNA: degenerate solids, parts, sets, what stays word for word and what it pins.
+#include "kernel/formats/lsdyna.h"
+
+#include <doctest/doctest.h>
+
+#include "kernel/formats/deck_remarks.h"
+#include "tests/kernel/formats/damage.h"
+#include "tests/kernel/formats/fixtures.h"
+
+using namespace tetmend;
+using namespace tetmend::test;
+
+namespace {
+
+std::string deck_text() {
+  return "$ made by hand\n"
+         "*KEYWORD\n"
+         "*TITLE\n"
+         "11 tets\n"
+         "*PART\n"
+         "left part\n"
+         "         3         1         1\n"
+         "right part\n"
+         "         5         1         1\n"
+         "*MAT_ELASTIC\n"
+         "         1  7.85E-9    210000       0.3\n"
+         "*NODE\n"
+         "$#   nid               x               y               z      tc      rc\n"
+         "      11             0.0             0.0             0.0       0       0\n"
+         "      12      1.00000000             0.0             0.0\n"
+         "      13             0.0-1.234567890E-01             0.0\n"
+         "      14             0.0             0.0         1.5D-01       7       0\n"
+         "      20             1.0             1.0             1.0\n"
+         "*BOUNDARY_SPC_NODE\n"
+         "        12         0         1         1         1\n"
+         "*ELEMENT_SOLID\n"
+         "       1       3      11      12      13      14      14      14      14      14\n"
+         "       2       5\n"
+         "      12      13      14      20       0       0       0       0       0       0\n"
+         "*SET_SOLID_TITLE\n"
+         "both of them\n"
+         "         9\n"
+         "         1         2\n"
+         "*SET_NODE_LIST\n"
+         "         4\n"
+         "        13        20\n"
+         "*SET_SEGMENT_TITLE\n"
+         "wall\n"
+         "         8\n"
+         "        11        12        13        13\n"
+         "*END\n";
+}
+
+MeshData read_deck(const TempFolder& folder, std::string_view content) {
+  write_text(folder / "a.k", content);
+  return read_mesh(folder / "a.k");
+}
+
+std::string edited(std::string text, std::string_view what, std::string_view by) {
+  const auto at = text.find(what);
+  REQUIRE(at != std::string::npos);
+  return text.replace(at, what.size(), by);
+}
+
+}  // namespace
+
+TEST_CASE("a deck of LS-DYNA gives nodes, degenerate solids, parts and sets") {
+  const TempFolder folder;
+  const MeshData mesh = read_deck(folder, deck_text());
+  CHECK(mesh.points[2] == Point(0, -0.123456789, 0));
+  CHECK(mesh.points[3] == Point(0, 0, 0.15));
+  CHECK(mesh.point_numbers == std::vector<std::int64_t>{11, 12, 13, 14, 20});
+  CHECK(mesh.tets == std::vector<MeshData::Tet>{{{0, 1, 2, 3}, 3}, {{1, 2, 3, 4}, 5}});
+  CHECK(mesh.tet_numbers == std::vector<std::int64_t>{1, 2});
+  CHECK(mesh.triangles == std::vector<MeshData::Triangle>{{{0, 1, 2}, 8}});
+  std::vector<std::string> names;
+  for (const Group& group : mesh.groups) names.push_back(group.name);
+  CHECK(names == std::vector<std::string>{"left part", "right part", "both of them", "", "wall"});
+  CHECK(mesh.notes.empty());
+}
+
+TEST_CASE(
+    "nodes that other keywords of LS-DYNA name are required, titles and materials name none") {
+  const TempFolder folder;
+  const MeshData mesh = read_deck(folder, deck_text());
+  // 14 has a constraint, 12 is held by a boundary; 11 to 13 and 20 are in sets.
+  CHECK(mesh.required_vertices == std::vector<std::uint32_t>{0, 1, 2, 3, 4});
+  const std::vector<std::string> remarks = deck_remarks(mesh);
+  REQUIRE(remarks.size() == 4);
+  CHECK(remarks[0].ends_with("a.k:17: *NODE with constraints keeps 1 point where it is"));
+  CHECK(remarks[1].ends_with("a.k:19: *BOUNDARY_SPC_NODE keeps 1 point where it is"));
+  const std::string bare = edited(edited(deck_text(), "       7       0", ""), "*BOUNDARY_SPC_NODE",
+                                  "*CONTROL_SOMETHING");
+  CHECK(read_deck(folder, bare.substr(0, bare.find("*SET_NODE"))).required_vertices.empty());
+}
+
+TEST_CASE("a deck of LS-DYNA comes back, all but its mesh word for word") {
+  const TempFolder folder;
+  const MeshData mesh = read_deck(folder, deck_text());
+  CHECK(not_written(folder / "b.k", mesh).empty());
+  write_mesh(folder / "b.k", mesh);
+  const std::string written = test::read_text(folder / "b.k");
+  const MeshData again = read_mesh(folder / "b.k");
+  CHECK(same_mesh(again, mesh));
+  CHECK(again.groups == mesh.groups);
+  CHECK(again.tet_numbers == mesh.tet_numbers);
+  for (const std::string_view kept :
+       {"$ made by hand\n*KEYWORD\n*TITLE\n11 tets\n", "*MAT_ELASTIC\n         1  7.85E-9",
+        "1.5D-01       7       0\n", "*BOUNDARY_SPC_NODE\n        12", "$#   nid ",
+        "*SET_SOLID_TITLE\nboth of them\n         9\n         1         2\n", "*END\n",
+        "*SET_SEGMENT_TITLE\nwall\n         8\n        11        12        13        13\n"}) {
+    CHECK_MESSAGE(written.find(kept) != std::string::npos, kept);
+  }
+  write_mesh(folder / "c.k", again);
+  CHECK(written == test::read_text(folder / "c.k"));
+}
+
+TEST_CASE("solids of LS-DYNA with nodes twice are prisms and pyramids, and come back as such") {
+  const TempFolder folder;
+  std::string text = "*KEYWORD\n*NODE\n";
+  for (int i = 0; i < 8; ++i) {
+    text += std::to_string(i + 1) + "," + std::to_string(i % 4 == 1 || i % 4 == 2) + "," +
+            std::to_string(i % 4 > 1) + "," + std::to_string(i / 4) + "\n";
+  }
+  text +=
+      "*ELEMENT_SOLID\n1,1,1,2,3,4,5,6,7,8\n2,1,1,2,3,4,5,5,5,5\n3,1,1,2,3,4,5,5,6,6\n4,1,1,2,3,"
+      "5\n*END\n";
+  const MeshData mesh = read_deck(folder, text);
+  CHECK(mesh.tets == std::vector<MeshData::Tet>{{{0, 1, 2, 4}, 1}});
+  REQUIRE(mesh.other_elements.size() == 3);
+  CHECK(mesh.other_elements[0].vtk_type == 12);
+  CHECK(mesh.other_elements[1].vertices == std::vector<std::uint32_t>{0, 1, 2, 3, 4});
+  CHECK(mesh.other_elements[2].vertices == std::vector<std::uint32_t>{0, 4, 1, 3, 5, 2});
+  write_mesh(folder / "b.k", mesh);
+  CHECK(read_mesh(folder / "b.k").other_elements == mesh.other_elements);
+}
+
+TEST_CASE("ten nodes of a solid of LS-DYNA are read from two lines, or from one that goes on") {
+  const TempFolder folder;
+  std::string nodes = "*KEYWORD\n*NODE\n";
+  for (int i = 1; i <= 10; ++i) nodes += std::to_string(i) + ",0," + std::to_string(i) + ",1.5\n";
+  const MeshData two = read_deck(folder, nodes + "*ELEMENT_SOLID\n1,1\n1,2,3,4,5,6,7,8,9,10\n");
+  const MeshData one = read_deck(folder, nodes + "*ELEMENT_SOLID\n1,1,1,2,3,4,5,6,7,8,9,\n10\n");
+  CHECK(two.mid_nodes.size() == 6);
+  CHECK(one.mid_nodes == two.mid_nodes);
+  write_mesh(folder / "b.key", two);
+  CHECK(read_mesh(folder / "b.key").mid_nodes == two.mid_nodes);
+}
+
+TEST_CASE("a mesh of another format becomes a deck of LS-DYNA with parts, segments and sets") {
+  const TempFolder folder;
+  MeshData mesh = awkward_mesh();
+  for (Point& point : mesh.points) point = {1, 2, 3};
+  mesh.points[1] = {1.0 / 3, 0.5, -1e-7};
+  mesh.required_vertices.clear();
+  mesh.edges.clear();
+  mesh.point_labels.clear();
+  mesh.tets[0].label = 4;
+  mesh.tets[1].label = 6;
+  mesh.triangles = {{{0, 2, 1}, 12}, {{3, 0, 1}, 7}};
+  mesh.groups = {{3, 4, "body", {}, {}}, {2, 12, "wall", {}, {}}, {0, 1, "nodes", {}, {0, 3}}};
+  CHECK(not_written(folder / "a.k", mesh) ==
+        std::vector<std::string>{
+            "1 coordinates are rounded to 16 characters, which is what LS-DYNA reads"});
+  write_mesh(folder / "a.k", mesh);
+  const MeshData again = read_mesh(folder / "a.k");
+  CHECK(again.tets == mesh.tets);
+  CHECK(again.triangles[0].label == 7);
+  CHECK(again.triangles[1].label == 12);
+  CHECK(std::abs(again.points[1][0] - 1.0 / 3) < 1e-14);
+  CHECK(again.points[1][2] == -1e-7);
+  std::vector<std::string> names;
+  for (const Group& group : again.groups) names.push_back(group.name);
+  CHECK(names == std::vector<std::string>{"body", "nodes", "", "wall"});
+}
+
+TEST_CASE("wide fields of LS-DYNA are read and written") {
+  const TempFolder folder;
+  const std::string text =
+      "*KEYWORD I10=Y\n*NODE\n"
+      "         1             0.0             0.0             0.0\n"
+      "         2             1.0             0.0             0.0\n"
+      "         3             0.0             1.0             0.0\n"
+      "1234567890             0.0             0.0             1.0\n"
+      "*ELEMENT_SOLID\n"
+      "         7         1         1         2         31234567890123456789012345678901234567890"
+      "12345678901234567890\n*END\n";
+  const MeshData mesh = read_deck(folder, text);
+  CHECK(mesh.tets.size() == 1);
+  write_mesh(folder / "b.k", mesh);
+  CHECK(read_mesh(folder / "b.k").point_numbers == mesh.point_numbers);
+}
+
+TEST_CASE("a tet of a deck of LS-DYNA is located by its line") {
+  const TempFolder folder;
+  write_text(folder / "a.k", deck_text());
+  CHECK(locate_tet(folder / "a.k", 1).ends_with("a.k:23"));
+}
+
+TEST_CASE("a deck of LS-DYNA with a byte changed or cut away never crashes") {
+  const TempFolder folder;
+  write_text(folder / "a.k", deck_text());
+  change_each_byte(folder / "a.k", folder / "a.k");
+  cut_at_each_byte(folder / "a.k");
+}
+
+TEST_CASE("a bad deck of LS-DYNA is refused with line and reason") {
+  const std::string good = deck_text();
+  const std::vector<BadFile> files = {
+      {"empty", "", "1: ", "the file has no keywords"},
+      {"other", "solid x\n", "1: ", "the file has no keywords: expected *KEYWORD and *NODE"},
+      {"no nodes", "*KEYWORD\n*END\n", "", "the file has no nodes: expected *NODE"},
+      {"text", edited(good, "1.00000000", "1.0000000x"), "15: ", "is not a finite number"},
+      {"infinite", edited(good, "1.5D-01", "1.D+999"), "17: ", "is not a finite number"},
+      {"twice", edited(good, "      12 ", "      11 "),
+       "15: ", "the number '11' of a node appears for the second time"},
+      {"node", edited(good, "      20       0", "      21       0"),
+       "23: ", "'21' is not the number of a node: expected one of *NODE"},
+      {"parameter", edited(good, "      11      12", "      &n      12"),
+       "22: ", "'&n' is not an integer"},
+      {"few", edited(good, "      12      13      14      20", "      12      13"),
+       "23: ", "an element has 2 nodes: expected 4, 6, 8 or 10"},
+      {"solid twice", edited(good, "       2       5\n", "       1       5\n"),
+       "23: ", "the number '1' of a solid appears for the second time"},
+      {"long", edited(good, "*NODE\n", "*NODE +\n"), "12: ", "expected LONG=Y"},
+  };
+  const TempFolder folder;
+  for (const BadFile& bad : files) {
+    CAPTURE(bad.what);
+    write_text(folder / "a.k", bad.content);
+    const std::string error = error_of_reading(folder / "a.k");
+    CHECK_MESSAGE(error.starts_with("a.k:" + bad.place), error);
+    CHECK_MESSAGE(error.find(bad.reason) != std::string::npos, error);
+  }
+}
