@@ -27,8 +27,8 @@
 #include <Eigen/Geometry>
 #include <Eigen/SparseCholesky>
 #include <fmt/format.h>
-#include <tetmend/measure.h>
 #include <tetmend/improve.h>
+#include <tetmend/measure.h>
 
 using Point = Eigen::Vector3d;
 using Points = std::vector<std::array<double, 3>>;
