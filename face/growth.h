@@ -47,7 +47,7 @@ class LocalLengths {
   template <class IsKnown>
   void measure(const TetMesh& mesh, const IsKnown& is_known);
 
-  std::size_t step_ = 1;         // every so-manieth vertex of the file
+  std::size_t step_ = 1;         // from one chosen number of a vertex to the next
   std::vector<double> lengths_;  // 0 for a vertex that is not there
 };
 
