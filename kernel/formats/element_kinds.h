@@ -17,7 +17,7 @@ struct ElementKind {
   std::string_view name;
 };
 
-enum VtkType : int {
+enum VtkCellType : int {
   vtk_point = 1,
   vtk_edge = 3,
   vtk_triangle = 5,
