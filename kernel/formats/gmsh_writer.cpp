@@ -4,6 +4,7 @@
 #include <array>
 #include <map>
 #include <numeric>
+#include <set>
 #include <span>
 #include <string>
 #include <string_view>
@@ -318,7 +319,9 @@ class Writer : private GmshSections {
       end_numbers("NodeData");
     }
     if (mesh_.data() == nullptr) return;
+    std::set<std::string_view> names;
     for (const DataArray& array : mesh_.data()->point_data) {
+      if (!names.insert(array.name).second) continue;  // which lost_in() says
       write_view_head("NodeData", array.name, array.components, mesh_.point_count());
       write_values(array, mesh_.point_count(),
                    [](std::size_t i) { return static_cast<std::int64_t>(i) + 1; });
@@ -348,8 +351,10 @@ class Writer : private GmshSections {
     std::vector<std::pair<std::string, std::size_t>> names;
     std::map<std::pair<std::string, std::size_t>, std::vector<OfKind>> views;
     for (const GmshKind& kind : plan_.kinds) {
+      std::set<std::string_view> of_kind;
       for (const DataArray& array : data_of(kind)) {
         if (array.size() != array.components * kind.count) continue;
+        if (!of_kind.insert(array.name).second) continue;  // likewise
         const std::pair key(array.name, array.components);
         if (!views.contains(key)) names.push_back(key);
         views[key].push_back({&kind, &array});

@@ -100,7 +100,8 @@ constexpr Room kGmshRoom = {.data = true,
                             .groups = true,
                             .others = true,
                             .second_order = true,
-                            .takes_name = formats::is_gmsh_name};
+                            .takes_name = formats::is_gmsh_name,
+                            .names_are_unique = true};
 constexpr Room kInpRoom = {.groups = true,
                            .others = true,
                            .required_vertices = true,

@@ -40,6 +40,15 @@ struct LostNotes {
                       printable(array.name), of, extension));
     }
   }
+  void repeated_names(std::string_view of, const std::vector<DataArray>& list) {
+    std::set<std::string_view> names;
+    for (const DataArray& array : list) {
+      if (names.insert(array.name).second) continue;
+      sentences.push_back(
+          fmt::format("the second array '{}' of {} is not kept: {} has one of a name",
+                      printable(array.name), of, extension));
+    }
+  }
   void lost(bool held, std::size_t count, std::string_view what) {
     if (held || count == 0) return;
     sentences.push_back(
@@ -146,6 +155,12 @@ std::vector<std::string> lost_in(const Room& room, const std::string& extension,
     notes.text_names("tets", mesh.tet_data);
     notes.text_names("triangles", mesh.triangle_data);
     notes.text_names("edges", mesh.edge_data);
+  }
+  if (room.names_are_unique) {
+    notes.repeated_names("points", mesh.point_data);
+    notes.repeated_names("tets", mesh.tet_data);
+    notes.repeated_names("triangles", mesh.triangle_data);
+    notes.repeated_names("edges", mesh.edge_data);
   }
   for (const OtherElements& others : mesh.other_elements) {
     const bool held = room.others && (room.holds == nullptr || room.holds(others.vtk_type));

@@ -29,7 +29,8 @@ struct Room {
   unsigned named_labels = 0;
   /// Which names it takes as they are; null: all.
   bool (*takes_name)(std::string_view name) = nullptr;
-  bool names_are_text = false;  ///< of arrays: printable()
+  bool names_are_text = false;    ///< of arrays: printable()
+  bool names_are_unique = false;  ///< of arrays of one kind of element: it has the first of a name
   bool periodic = false;
   bool low_labels = true;  ///< below 1
   /// Arrays whose names begin so are its own.

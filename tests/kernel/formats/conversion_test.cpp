@@ -230,16 +230,30 @@ TEST_CASE("of arrays of one name and type none is lost in formats with arrays ov
   mesh.tet_data = {{"stress", 1, std::vector<double>{1.5, 2.5}},
                    {"stress", 1, std::vector<double>{3.5, 4.5}}};
   mesh.triangle_data = {{"stress", 1, std::vector<double>{5.5}}};
+  const std::vector<double> heat(mesh.points.size(), 0.5);
+  mesh.point_data = {{"heat", 1, heat}, {"heat", 1, std::vector<double>(heat.size(), 7.5)}};
   const TempFolder folder;
   for (const std::string name : {"a.vtu", "a.vtk"}) {
     CAPTURE(name);
     write_mesh(folder / name, mesh);
     const MeshData back = read_mesh(folder / name);
+    REQUIRE(back.point_data.size() == 2);
+    CHECK(std::get<std::vector<double>>(back.point_data[0].values) == heat);
     REQUIRE(back.tet_data.size() == 2);
     CHECK(std::get<std::vector<double>>(back.tet_data[0].values) == std::vector<double>{1.5, 2.5});
     CHECK(std::get<std::vector<double>>(back.tet_data[1].values) == std::vector<double>{3.5, 4.5});
     CHECK(std::get<std::vector<double>>(back.triangle_data[0].values) == std::vector<double>{5.5});
   }
+  CHECK(not_written(folder / "a.msh", mesh) ==
+        std::vector<std::string>{
+            "the second array 'heat' of points is not kept: .msh has one of a name",
+            "the second array 'stress' of tets is not kept: .msh has one of a name"});
+  write_mesh(folder / "a.msh", mesh);
+  const MeshData back = read_mesh(folder / "a.msh");
+  REQUIRE(back.tet_data.size() == 1);
+  CHECK(std::get<std::vector<double>>(back.tet_data[0].values) == std::vector<double>{1.5, 2.5});
+  CHECK(back.point_data.size() == 1);
+  CHECK(back.notes.empty());
 }
 
 TEST_CASE("a mesh goes from each format to each other and back, or what is lost is named") {
