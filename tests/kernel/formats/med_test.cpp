@@ -63,6 +63,7 @@ class SmallMed {
     file_->write("ENS_MAA/part/1/MAI/TR3/NOD", std::vector<std::int32_t>{1, 2, 4});
     file_->write("ENS_MAA/part/1/MAI/TR3/FAM", std::vector<std::int32_t>{-8});
     write_text(to, file_->bytes());
+    file_.reset();  // one at a time is open
   }
 
   std::vector<double> coordinates = {0, 1, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 1, -1};
