@@ -15,6 +15,7 @@
 
 #include "kernel/error.h"
 #include "kernel/formats/hdf5_handle.h"
+#include "kernel/printable.h"
 
 namespace tetmend::formats {
 namespace {
@@ -186,7 +187,7 @@ class MemoryReader final : public Hdf5Reader {
   }
 
   [[noreturn]] void fail(const std::string& path, std::string_view reason) const override {
-    throw Error(fmt::format("{}: {}: {}", input_.name(), in_quotes("/" + path), reason));
+    throw Error(fmt::format("{}: '{}': {}", input_.name(), printable("/" + path, 200), reason));
   }
 
  private:

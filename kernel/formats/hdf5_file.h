@@ -21,8 +21,8 @@ bool has_hdf5();
 
 /// What is asked for must be there, unless it says otherwise: all functions throw Error
 /// "FILE: /PATH: reason". Links to other files are as if they were not there, and tables that claim more
-/// than the file can hold are refused before memory is taken. One thread at a time has such a file
-/// open; others wait.
+/// than the file can hold are refused before memory is taken. One such file is open at a time: other
+/// threads wait, and the same one would for ever.
 class Hdf5Reader {
  public:
   virtual ~Hdf5Reader() = default;

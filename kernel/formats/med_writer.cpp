@@ -480,7 +480,8 @@ MedRemarks med_remarks(const MeshData& mesh) {
 std::size_t med_remarks_to_miss(const MeshData& mesh) {
   std::size_t count = 0;
   for (const auto& [what, text] : med_remarks(mesh)) {
-    const bool is_form = what == "mesh" || what == "order" || what.starts_with("bare family");
+    const bool is_form =
+        what == "mesh" || what == "NOM" || what == "order" || what.starts_with("bare family");
     const bool is_blank = text.find_first_not_of(' ') == std::string::npos;
     count += is_form || is_blank ? 0 : 1;
   }

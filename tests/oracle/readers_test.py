@@ -23,7 +23,7 @@ PROGRAM, SOURCE = sys.argv[1], Path(sys.argv[2])
 FORMATS = {
     "vtk": ["ASCII", "binary"], "vtu": ["ASCII", "binary"], "inp": ["", "lists"], "bdf": [""], "nas": [""],
     "msh": ["2.2 ASCII", "2.2 binary", "4.1 ASCII", "4.1 binary"], "mesh": [""], "meshb": [""], "su2": [""],
-    "vol": [""], "ele": ["from 0", "from 1"],
+    "vol": [""], "ele": ["from 0", "from 1"], "med": [""],
 }
 # What readers cannot do, by reader, format and mesh; without a mesh: any.
 KNOWN_GAPS = {
@@ -151,7 +151,8 @@ def read_ccx(file: Path):
 
 
 READERS = {
-    "meshio": (lambda: has("meshio"), read_meshio, ["vtk", "vtu", "inp", "bdf", "nas", "msh", "mesh", "meshb", "su2", "ele"]),
+    "meshio": (lambda: has("meshio"), read_meshio, ["vtk", "vtu", "inp", "bdf", "nas", "msh", "mesh", "meshb", "su2", "ele",
+                                                          "med"]),
     "Gmsh": (lambda: has("gmsh"), read_gmsh, ["msh", "mesh", "bdf", "nas", "vtk"]),
     "VTK": (lambda: has("vtkmodules"), read_vtk, ["vtk", "vtu"]),
     "TetGen": (lambda: shutil.which("tetgen"), read_tetgen, ["ele"]),
@@ -250,11 +251,14 @@ def main() -> int:
     if not here:
         return 77
     wrong, tried, gaps = [], 0, 0
+    has_med = " .med" in subprocess.run([PROGRAM, "convert", "--help"], capture_output=True, text=True).stdout
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         for mesh in write_inputs(folder):
             wanted, count = expected(mesh, folder)
             for extension, variants in FORMATS.items():
+                if extension == "med" and not has_med:
+                    continue
                 for variant in variants:
                     out = folder / f"out.{extension}"
                     command = [PROGRAM, "convert", mesh, out, *(["--variant", variant] if variant else [])]
