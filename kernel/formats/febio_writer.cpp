@@ -222,8 +222,11 @@ class FebioWriter {
     if (mesh_.data() != nullptr) named = LabelNames(*mesh_.data()).named(3);
     for (const ElementList* list : lists_.of_dimension(3)) {
       if (febio_type(list->kind.vtk_type).empty()) continue;
-      std::set<Label> labels;
-      for (std::size_t i = 0; i < list->count; ++i) labels.insert(list->label(i));
+      std::set<Label> seen;
+      std::vector<Label> labels;  // as they come first, so that the order of tets stays
+      for (std::size_t i = 0; i < list->count; ++i) {
+        if (seen.insert(list->label(i)).second) labels.push_back(list->label(i));
+      }
       for (const Label label : labels) {
         const auto found = named.find(label);
         if (found != named.end()) written.insert(found->second);
@@ -239,15 +242,19 @@ class FebioWriter {
   /// One for each label of triangles and quadrilaterals, and for each group that is none.
   void write_surfaces(std::set<const Group*>& written) {
     std::map<Label, std::vector<GroupMembers::Member>> of_label;
+    std::vector<Label> labels;  // as they come first
     for (std::uint32_t k = 0; k < lists_.all().size(); ++k) {
       const ElementList& list = lists_.all()[k];
       for (std::uint32_t i = 0; i < list.count && list.kind.dimension == 2; ++i) {
-        of_label[list.label(i)].push_back({k, i});
+        auto& members = of_label[list.label(i)];
+        if (members.empty()) labels.push_back(list.label(i));
+        members.push_back({k, i});
       }
     }
     std::map<Label, const Group*> named;
     if (mesh_.data() != nullptr) named = LabelNames(*mesh_.data()).named(2);
-    for (const auto& [label, members] : of_label) {
+    for (const Label label : labels) {
+      const auto& members = of_label[label];
       const auto found = named.find(label);
       if (found != named.end()) written.insert(found->second);
       put_surface(found == named.end() ? label_name(label) : found->second->name, members);

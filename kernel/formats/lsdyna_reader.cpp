@@ -93,6 +93,10 @@ class LsDynaReader {
     if (std::none_of(blocks_.begin(), blocks_.end(), is_nodes))
       file_.fail_at_line(file_.end(), "the file has no nodes: expected *NODE");
     number_nodes();
+    if (std::none_of(blocks_.begin(), blocks_.end(),
+                     [](const Block& block) { return block.keyword == "END"; })) {
+      mesh_.notes.emplace_back("the deck has no *END: is the file complete?");
+    }
     mesh_.deck = {"", fmt::format("{} {}", widths_.integer, widths_.real)};
     for (const Block& block : blocks_) {
       if (is_solids(block)) read_solids(block);
@@ -126,6 +130,9 @@ class LsDynaReader {
   }
 
   void find_blocks() {
+    if (file_.size() == 0) {
+      file_.fail_at_line(file_.begin(), "the file is empty: expected *KEYWORD and *NODE");
+    }
     const char* at = file_.begin();
     Block block{{}, at, at, at};
     while (at != file_.end()) {
@@ -349,6 +356,7 @@ class LsDynaReader {
       return std::all_of(n.begin() + static_cast<std::ptrdiff_t>(from), n.end(),
                          [&](std::int64_t each) { return each == n[from]; });
     };
+    if (n.size() > kLsDynaHexahedron.size()) return nullptr;
     if (same(3)) return element_kind(vtk_tet);
     if (n.size() != 8) return nullptr;
     if (same(4)) return element_kind(vtk_pyramid);
@@ -548,32 +556,48 @@ class LsDynaReader {
     sets_.push_back(std::move(head.set));
   }
 
-  /// Triangles and quadrilaterals that stay in the deck.
+  /// Triangles and quadrilaterals that stay in the deck. Of shells with further cards none is read.
   void read_faces(const Block& block) {
     const bool is_set = block.keyword.starts_with("SET_");
-    if (block.keyword.find("GENERAL") != std::string::npos) return;
-    const bool has_cards = !is_set && block.keyword != "ELEMENT_SHELL";  // more than one a shell
-    if (has_cards) return;
+    const bool is_known = is_set ? block.keyword.find("GENERAL") == std::string::npos
+                                 : block.keyword == "ELEMENT_SHELL";
+    if (!is_known) return;
     SetHead head;
-    head.members = is_set ? read_head(block).members : lines(block);
-    if (is_set) head.set = read_head(block).set;
+    if (is_set) head = read_head(block);
+    if (!is_set) head.members = lines(block);
     const std::size_t width = is_set ? kCardWidth : widths_.integer;
+    std::size_t lost = 0;
     for (const std::string_view line : head.members) {
       split(line, width, width);
-      std::array<std::int64_t, 6> n{};  // element, part, nodes
-      for (std::size_t k = is_set ? 2 : 0; k < n.size(); ++k) {
-        const std::size_t at = is_set ? k - 2 : k;
-        if (!field(at).empty()) n[k] = integer(at, line, "the number of a node", 0);
-      }
-      const bool is_triangle = n[5] == 0 || n[5] == n[4];
       ElementRow row;
-      row.kind = element_kind(is_triangle ? vtk_triangle : vtk_quad);
-      row.label = static_cast<Label>(
-          std::clamp<std::int64_t>(is_set ? head.set.number : n[1], 0, INT32_MAX));
-      for (std::size_t k = 0; k < row.kind->width; ++k) row.vertices[k] = node(n[2 + k], line);
-      head.set.elements.push_back(faces_.add(row, sorter_, mesh_, elements_));
+      std::int64_t label = head.set.number;
+      if (!is_set) nastran_integer(field(1), label);
+      row.label = static_cast<Label>(std::clamp<std::int64_t>(label, 0, INT32_MAX));
+      if (read_face(is_set ? 0 : 2, row)) {
+        head.set.elements.push_back(faces_.add(row, sorter_, mesh_, elements_));
+      } else {
+        ++lost;
+      }
+    }
+    if (lost > 0) {
+      mesh_.notes.push_back(
+          fmt::format("{} lines of *{} name nodes that are not there: they stay in the deck, and "
+                      "are in no mesh",
+                      lost, block.keyword));
     }
     if (is_set && !head.set.elements.empty()) sets_.push_back(std::move(head.set));
+  }
+
+  /// False if it has not three or four nodes of the mesh.
+  bool read_face(std::size_t first, ElementRow& row) const {
+    std::array<std::int64_t, 4> n{};
+    for (std::size_t k = 0; k < n.size(); ++k) nastran_integer(field(first + k), n[k]);
+    row.kind = element_kind(n[3] == 0 || n[3] == n[2] ? vtk_triangle : vtk_quad);
+    for (std::size_t k = 0; k < row.kind->width; ++k) {
+      row.vertices[k] = find(nodes_, node_order_, n[k]);
+      if (row.vertices[k] == GmshTags::kNone) return false;
+    }
+    return true;
   }
 
   void read_parts(const Block& block) {

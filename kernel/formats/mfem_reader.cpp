@@ -41,12 +41,16 @@ class MfemReader {
     }
     add_sets(3, sets_[1], mesh_.tets, mesh_.tet_parts);
     add_sets(2, sets_[0], mesh_.triangles, mesh_.triangle_parts);
+    if (!seen_.contains("mfem_mesh_end") && file_.end()[-1] != '\n') {
+      mesh_.notes.emplace_back("the last line has no end: is the file complete?");
+    }
     mesh_.variant = kMfem;
     return std::move(mesh_);
   }
 
  private:
   void read_head() {
+    if (text_.at_end()) text_.fail("the file is empty: expected 'MFEM mesh v1.0'");
     const std::string_view line = text_.skip_line();
     constexpr std::array<std::string_view, 3> kKnown = {"MFEM mesh v1.0", "MFEM mesh v1.2",
                                                         "MFEM mesh v1.3"};

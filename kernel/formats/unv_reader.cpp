@@ -115,9 +115,14 @@ class UnvReader {
       }
       keep(dataset);
     }
+    expect(has_nodes, "nodes: expected a dataset 2411, 781 or 15");
+    expect(has_elements, "elements: expected a dataset 2412 or 780");
+  }
+
+  void expect(bool (*is_wanted)(std::string_view), std::string_view what) const {
     if (std::none_of(datasets_.begin(), datasets_.end(),
-                     [](const UnvDataset& each) { return has_nodes(each.name); })) {
-      text_.fail("the file has no nodes: expected a dataset 2411, 781 or 15");
+                     [&](const UnvDataset& each) { return is_wanted(each.name); })) {
+      text_.fail(fmt::format("the file has no {}", what));
     }
   }
 

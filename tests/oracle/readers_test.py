@@ -23,7 +23,7 @@ PROGRAM, SOURCE = sys.argv[1], Path(sys.argv[2])
 FORMATS = {
     "vtk": ["ASCII", "binary"], "vtu": ["ASCII", "binary"], "inp": ["", "lists"], "bdf": [""], "nas": [""],
     "msh": ["2.2 ASCII", "2.2 binary", "4.1 ASCII", "4.1 binary"], "mesh": [""], "meshb": [""], "su2": [""],
-    "vol": [""], "ele": ["from 0", "from 1"], "med": [""],
+    "vol": [""], "ele": ["from 0", "from 1"], "unv": [""], "mfem": [""], "med": [""],
 }
 # What readers cannot do, by reader, format and mesh; without a mesh: any.
 KNOWN_GAPS = {
@@ -136,6 +136,15 @@ def read_netgen(file: Path):
     return [list(point.p) for point in mesh.Points()], tets, [e.index for e in mesh.Elements3D()]
 
 
+def read_mfem(file: Path):
+    """By PyMFEM; the volumes of curved tets are those of their corners."""
+    from mfem.ser import Mesh
+    mesh = Mesh(str(file), 1, 0)
+    points = np.array(mesh.GetVertexArray())
+    tets = [list(mesh.GetElementVertices(i)) for i in range(mesh.GetNE())]
+    return points, tets, [mesh.GetAttribute(i) for i in range(mesh.GetNE())]
+
+
 def read_ccx(file: Path):
     """CalculiX checks the deck and prints what it has read."""
     text = file.read_text()
@@ -153,14 +162,15 @@ def read_ccx(file: Path):
 READERS = {
     "meshio": (lambda: has("meshio"), read_meshio, ["vtk", "vtu", "inp", "bdf", "nas", "msh", "mesh", "meshb", "su2", "ele",
                                                           "med"]),
-    "Gmsh": (lambda: has("gmsh"), read_gmsh, ["msh", "mesh", "bdf", "nas", "vtk"]),
+    "Gmsh": (lambda: has("gmsh"), read_gmsh, ["msh", "mesh", "bdf", "nas", "vtk", "unv"]),
     "VTK": (lambda: has("vtkmodules"), read_vtk, ["vtk", "vtu"]),
     "TetGen": (lambda: shutil.which("tetgen"), read_tetgen, ["ele"]),
     "Netgen": (lambda: has("netgen"), read_netgen, ["vol"]),
+    "MFEM": (lambda: has("mfem"), read_mfem, ["mfem"]),
     "CalculiX": (lambda: shutil.which("ccx"), read_ccx, ["inp"]),
 }
 # No reader of these is in Debian, or none that a script can call.
-NOT_PACKAGED = ["MFEM", "deal.II", "libMesh", "Elmer", "Code_Aster", "SU2", "pyNastran"]
+NOT_PACKAGED = ["deal.II", "LS-DYNA", "FEBio", "libMesh", "Elmer", "Code_Aster", "SU2", "pyNastran"]
 
 
 # ---- what is read

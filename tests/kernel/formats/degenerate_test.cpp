@@ -42,8 +42,9 @@ bool tells(const MeshData& mesh, std::string_view text) {
 
 TEST_CASE("degenerate and repeated elements are dropped with a note, whatever the format") {
   const TempFolder folder;
-  for (const std::string name : {"a.mesh", "a.meshb", "a.node", "a.vtk", "a.vtu", "a.msh", "a.inp",
-                                 "a.su2", "a.vol", "a.bdf", "mesh.header", "a.med"}) {
+  for (const std::string name :
+       {"a.mesh", "a.meshb", "a.node", "a.vtk", "a.vtu", "a.msh", "a.inp", "a.su2", "a.vol",
+        "a.bdf", "mesh.header", "a.unv", "a.mfem", "a.k", "a.feb", "a.med"}) {
     CAPTURE(name);
     write_mesh(folder / name, degenerate_mesh());
     const MeshData mesh = read_mesh(folder / name);

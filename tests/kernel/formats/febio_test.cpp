@@ -143,7 +143,7 @@ TEST_CASE("a bad model of FEBio is refused with line and reason") {
   const std::string good = model_text();
   const std::vector<BadFile> files = {
       {"empty", "", "1: ", "the file is empty"},
-      {"text", "solid x\n", "1: ", "this is no XML"},
+      {"text", "solid x\n", "", "this is no XML"},
       {"other", "<VTKFile/>\n", "1: ", "the file is no model of FEBio: expected <febio_spec>"},
       {"no mesh", "<febio_spec/>\n", "1: ", "the model has no mesh"},
       {"elsewhere", "<febio_spec><Mesh from=\"b.feb\"/></febio_spec>\n", "1: ", "in another file"},

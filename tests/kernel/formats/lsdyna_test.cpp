@@ -175,6 +175,34 @@ TEST_CASE("a mesh of another format becomes a deck of LS-DYNA with parts, segmen
   CHECK(names == std::vector<std::string>{"body", "nodes", "", "wall"});
 }
 
+TEST_CASE("segments of LS-DYNA whose nodes are in another file stay in the deck with a note") {
+  const TempFolder folder;
+  const MeshData mesh =
+      read_deck(folder, edited(deck_text(), "12        13        13", "99        13        13"));
+  CHECK(mesh.triangles.empty());
+  REQUIRE(mesh.notes.size() == 1);
+  CHECK(mesh.notes[0].starts_with("1 lines of *SET_SEGMENT_TITLE name nodes that are not there"));
+  write_mesh(folder / "b.k", mesh);
+  CHECK(test::read_text(folder / "b.k").find("99        13") != std::string::npos);
+}
+
+TEST_CASE("a set of nodes of LS-DYNA that fills a volume pins none, and is written anew") {
+  const TempFolder folder;
+  std::string text = edited(deck_text(), "       7       0", "");
+  text = edited(text, "*BOUNDARY_SPC_NODE", "*CONTROL_SOMETHING");
+  text = edited(text, "        13        20\n", "        11        14\n");
+  text = edited(text, "*SET_NODE_LIST\n", "*SET_NODE_LIST_GENERATE\n");
+  MeshData mesh = read_deck(folder, text.substr(0, text.find("*SET_SEGMENT")));
+  CHECK(mesh.required_vertices.empty());
+  REQUIRE(mesh.groups.back().dimension == 0);
+  mesh.groups.back().members.push_back(4);
+  write_mesh(folder / "b.k", mesh);
+  CHECK(
+      test::read_text(folder / "b.k")
+          .ends_with(
+              "*SET_NODE_LIST\n         4\n        11        12        13        14        20\n"));
+}
+
 TEST_CASE("wide fields of LS-DYNA are read and written") {
   const TempFolder folder;
   const std::string text =
@@ -185,7 +213,7 @@ TEST_CASE("wide fields of LS-DYNA are read and written") {
       "1234567890             0.0             0.0             1.0\n"
       "*ELEMENT_SOLID\n"
       "         7         1         1         2         31234567890123456789012345678901234567890"
-      "12345678901234567890\n*END\n";
+      "1234567890\n*END\n";
   const MeshData mesh = read_deck(folder, text);
   CHECK(mesh.tets.size() == 1);
   write_mesh(folder / "b.k", mesh);
@@ -208,7 +236,7 @@ TEST_CASE("a deck of LS-DYNA with a byte changed or cut away never crashes") {
 TEST_CASE("a bad deck of LS-DYNA is refused with line and reason") {
   const std::string good = deck_text();
   const std::vector<BadFile> files = {
-      {"empty", "", "1: ", "the file has no keywords"},
+      {"empty", "", "1: ", "the file is empty"},
       {"other", "solid x\n", "1: ", "the file has no keywords: expected *KEYWORD and *NODE"},
       {"no nodes", "*KEYWORD\n*END\n", "", "the file has no nodes: expected *NODE"},
       {"text", edited(good, "1.00000000", "1.0000000x"), "15: ", "is not a finite number"},
@@ -221,6 +249,10 @@ TEST_CASE("a bad deck of LS-DYNA is refused with line and reason") {
        "22: ", "'&n' is not an integer"},
       {"few", edited(good, "      12      13      14      20", "      12      13"),
        "23: ", "an element has 2 nodes: expected 4, 6, 8 or 10"},
+      {"nine",
+       edited(good, "       0       0       0       0       0       0\n",
+              "      20      20      20      20      20       0\n"),
+       "23: ", "the element is none of 4, 5, 6, 8 or 10 nodes"},
       {"solid twice", edited(good, "       2       5\n", "       1       5\n"),
        "23: ", "the number '1' of a solid appears for the second time"},
       {"long", edited(good, "*NODE\n", "*NODE +\n"), "12: ", "expected LONG=Y"},

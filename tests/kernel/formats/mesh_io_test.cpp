@@ -68,7 +68,8 @@ TEST_CASE("a mesh written in any format is read back bit for bit") {
   for (const MeshFormat& format : mesh_formats()) {
     CAPTURE(format.extension);
     if (format.extension == ".inp") continue;  // a deck lists faces, not triangles: inp_test.cpp
-    if (format.name == "LS-DYNA") continue;    // which rounds: lsdyna_test.cpp
+    // Their surfaces pin points, and one rounds: lsdyna_test.cpp, febio_test.cpp.
+    if (format.name == "LS-DYNA" || format.name == "FEBio") continue;
     const auto file = folder / ("mesh" + std::string(format.extension));
     const MeshData mesh = mesh_for(format.extension);
     write_mesh(file, mesh);
@@ -154,6 +155,7 @@ TEST_CASE("a file cut at any byte is an error or gives the full mesh") {
   for (const MeshFormat& format : mesh_formats()) {
     const std::string extension(format.extension);
     if (extension == ".inp") continue;  // no counts: a cut between lines goes unseen
+    if (extension == ".feb") continue;  // pins: febio_test.cpp
     const auto file = folder / ("mesh" + extension);
     const MeshData mesh = mesh_for(extension);
     write_mesh(file, mesh);
@@ -172,9 +174,9 @@ TEST_CASE("a file cut at any byte is an error or gives the full mesh") {
         try {
           MeshData got = read_mesh(file);
           const auto tells = [](const std::string& note) {
-            return note.find("have no ENDDATA: is the file complete?") != std::string::npos;
+            return note.find("is the file complete?") != std::string::npos;
           };
-          // People have decks of Nastran without their end: a note takes the place of the error.
+          // People have decks without their end: a note takes the place of the error.
           if (std::any_of(got.notes.begin(), got.notes.end(), tells)) continue;
           // No end mark: a cut exactly before the labels of points goes unseen.
           if (extension == ".vtk" || extension == ".msh") {

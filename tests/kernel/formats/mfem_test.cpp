@@ -90,8 +90,8 @@ TEST_CASE("nodes of second order of MFEM are mid-side nodes, and are written as 
   CHECK(curved == 1);
   write_mesh(folder / "b.mfem", mesh);
   CHECK(test::read_text(folder / "b.mfem") == curved_text());
-  CHECK(read_mfem_text(folder, "l.mfem", changed(curved_text("Linear"), "0.5", "# 0.5"))
-            .points.size() == 4);
+  const std::string linear = curved_text("Linear");
+  CHECK(read_mfem_text(folder, "l.mfem", linear.substr(0, linear.find("0.5"))).points.size() == 4);
 }
 
 TEST_CASE("groups that are no whole attributes of MFEM are named when they are lost") {
@@ -135,7 +135,8 @@ TEST_CASE("a bad mesh of MFEM is refused with line and reason") {
       {"huge", changed(good, "vertices\n5", "vertices\n500000000"), "", "cannot fit"},
       {"cubic", curved_text("H1_3D_P3"), "19: ", "nodes of 'H1_3D_P3' cannot be read"},
       {"discontinuous", curved_text("L2_T1_3D_P1"), "19: ", "cannot be read"},
-      {"few nodes", changed(curved_text(), "0 0.5 0.5\n", ""), "", "expected a coordinate"},
+      {"few nodes", changed(curved_text(), "0 0.5 0.5\n", ""), "",
+       "where a coordinate is expected"},
   };
   const TempFolder folder;
   for (const BadFile& bad : files) {

@@ -156,7 +156,7 @@ TEST_CASE("members of groups that are not in a universal file are named") {
 TEST_CASE("a tet of a universal file is located by its line") {
   const TempFolder folder;
   write_text(folder / "a.unv", unv_text());
-  CHECK(locate_tet(folder / "a.unv", 1).ends_with("a.unv:22"));
+  CHECK(locate_tet(folder / "a.unv", 1).ends_with("a.unv:23"));
 }
 
 TEST_CASE("a universal file with a byte changed or cut away never crashes") {
@@ -172,18 +172,18 @@ TEST_CASE("a bad universal file is refused with line and reason") {
       {"empty", "", "1: ", "the file is empty"},
       {"other", "solid x\n", "1: ", "'solid' is not the beginning of a dataset: expected -1"},
       {"no nodes", "    -1\n   164\n 1\n    -1\n", "", "the file has no nodes"},
-      {"cut", good.substr(0, good.rfind("    -1")), "29: ", "the dataset '2467' has no end"},
+      {"cut", good.substr(0, good.rfind("    -1")), "36: ", "the dataset '2467' has no end"},
       {"node", with(good, "        11        12        13        14", "11 12 13 15"),
-       "21: ", "'15' is not the number of a node"},
+       "22: ", "'15' is not the number of a node"},
       {"twice", with(good, "        12         1         1", "        11         1         1"),
        "10: ", "the number '11' of a node appears for the second time"},
       {"element twice", with(good, "         2       111", "         1       111"),
-       "22: ", "the number '1' of an element appears for the second time"},
+       "23: ", "the number '1' of an element appears for the second time"},
       {"width", with(good, "7         4\n", "7         5\n"),
-       "20: ", "an element of kind 111 has 5 nodes: expected 4"},
-      {"cubic", with(good, "111", "117"), "20: ", "expected none of third order"},
+       "21: ", "an element of kind 111 has 5 nodes: expected 4"},
+      {"cubic", with(good, "111", "117"), "21: ", "expected none of third order"},
       {"infinite", with(good, "1.5D-01", "1.5D+999"), "15: ", "is not a finite number"},
-      {"many", with(good, "0         1\nleft", "0 900000000\nleft"), "30: ", "cannot fit"},
+      {"many", with(good, "0         1\nleft", "0 900000000\nleft"), "37: ", "cannot fit"},
   };
   const TempFolder folder;
   for (const BadFile& bad : files) {
