@@ -15,6 +15,7 @@
 #include "schedule/limit/surface_limit.h"
 #include "schedule/lua_library.h"
 #include "schedule/single_attempt.h"
+#include "schedule/vary.h"
 
 namespace tetmend {
 
@@ -227,6 +228,7 @@ void ScriptHost::add_words() {
   add("insert_points", &ScriptHost::insert_points);
   add("polish", &ScriptHost::polish);
   add("adapt", &ScriptHost::adapt);
+  add("vary", &ScriptHost::vary);
   add("untangle", &ScriptHost::untangle);
   add("apply", &ScriptHost::apply);
   add("attempt", &ScriptHost::attempt);
@@ -431,6 +433,25 @@ void ScriptHost::adapt(WordCall& call) {
                                 .split = numbers.flag("split"),
                                 .contract = numbers.flag("contract")};
   make_pass(call, [&] { tetmend::adapt(*run_, options); });
+}
+
+void ScriptHost::vary(WordCall& call) {
+  begin_work();
+  const WordInfo& word = find_word("vary");
+  const ScriptValue value = read_table(call.argument(1), word);
+  Arguments arguments = read_arguments(word, value, {});
+  const ParameterValues numbers(word.name, word.numbers, arguments.numbers);
+  VaryOptions options = {.on = std::move(arguments.on),
+                         .rings = static_cast<unsigned>(numbers.integer("rings")),
+                         .variants = static_cast<unsigned>(numbers.integer("variants")),
+                         .first = static_cast<unsigned>(numbers.integer("first"))};
+  if (const ScriptValue* schedule = value.field("schedule")) {
+    options.schedule = Schedule::builtin(read_text({"vary: schedule"}, *schedule));
+  }
+  if (const ScriptValue* settings = value.field("settings")) {
+    options.settings = read_settings(word, *settings);
+  }
+  make_pass(call, [&] { tetmend::vary(*run_, options); });
 }
 
 void ScriptHost::untangle(WordCall& call) {

@@ -47,6 +47,7 @@ class ScriptHost {
   void insert_points(WordCall& call);
   void polish(WordCall& call);
   void adapt(WordCall& call);
+  void vary(WordCall& call);
   void untangle(WordCall& call);
   void apply(WordCall& call);
   void attempt(WordCall& call);

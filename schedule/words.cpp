@@ -64,6 +64,18 @@ constexpr std::array<ParameterSpec, 4> kUntangleNumbers = {{
      "how many vertices away from theirs others may move, too"},
     {"looks", ParameterSpec::Kind::integer, 1, 100000, 400, "at all tets of a tangle, at most"},
 }};
+constexpr std::array<WordField, 3> kVaryFields = {{
+    kOn,
+    {"schedule", "name", "'shell'", "a built-in one, that works on each copy"},
+    {"settings", "table", "{}", "values of its parameters"},
+}};
+constexpr std::array<ParameterSpec, 3> kVaryNumbers = {{
+    {"rings", ParameterSpec::Kind::integer, 1, 100, 4,
+     "of vertices around a selected tet that its neighbourhood has"},
+    {"variants", ParameterSpec::Kind::integer, 1, 100000, 16, "of each neighbourhood"},
+    {"first", ParameterSpec::Kind::integer, 0, 1000000000, 0,
+     "number of the first variant; those of other numbers are others"},
+}};
 constexpr std::array<ParameterSpec, 2> kApplyNumbers = {{
     {"sweeps", ParameterSpec::Kind::integer, 1, 1000, 1,
      "at most; ends earlier when nothing is accepted"},
@@ -85,7 +97,7 @@ constexpr std::array<ParameterSpec, 2> kGoalNumbers = {{
      "degrees, the largest angle; 0: 180 less the smallest"},
 }};
 
-constexpr std::array<WordInfo, 27> kWords = {{
+constexpr std::array<WordInfo, 28> kWords = {{
     {"description", "description \"text\"", "says what the schedule does, in one line"},
     {"parameter", "parameter{\"name\", default = 30, low = 0, high = 100, help = \"...\"}",
      "declares a parameter and returns its value, the default or what --set says; `default` is a "
@@ -136,6 +148,11 @@ constexpr std::array<WordInfo, 27> kWords = {{
      "nothing is changed. For the beginning",
      {},
      kUntangleNumbers},
+    {"vary", "vary{...}",
+     "cuts the neighbourhoods of selected tets out, no tet in two, and runs a schedule on copies: "
+     "numbered anew and shaken, some with a higher goal, all side by side. The best copy replaces "
+     "its neighbourhood where no more tets are bad and the worst are better. For the end",
+     kVaryFields, kVaryNumbers},
     {"apply", "apply(what, {...})",
      "tries any operators on selected tets, the worst first: `what` is a name, {name, parameter = "
      "value, order = \"sine\", \"angle\" (largest first), \"longest\" or \"shortest\", most_edges "

@@ -109,11 +109,12 @@ std::string script_of_call(const TraceFile& file, const Call& call) {
     throw Error(fmt::format("{}: event {}: settings that are no list of values: {}",
                             file.path().string(), call.events.begin, formats::in_quotes(settings)));
   }
-  if (name == kUntanglingName) {
+  if (name == kUntanglingName || name == kVariantsName) {
     throw Error(fmt::format(
-        "{}: event {}: untangling is no attempt of an operator; --at {} -o FILE writes the mesh, "
-        "and untangle{{}} of a schedule repeats it",
-        file.path().string(), call.events.begin, call.events.begin));
+        "{}: event {}: {} is no attempt of an operator; --at {} -o FILE writes the mesh, "
+        "and {}{{}} of a schedule repeats it",
+        file.path().string(), call.events.begin, name, call.events.begin,
+        name == kUntanglingName ? "untangle" : "vary"));
   }
   if (name == kSequenceName) return fmt::format("{}{{{}}}", name, settings);
   if (name.find_first_of("\"\\") != std::string_view::npos) {

@@ -21,6 +21,8 @@ namespace tetmend {
 inline constexpr std::string_view kSequenceName = "sequence";
 /// What it calls the attempt of a pass to untangle a part of the mesh. Its target is the worst tet.
 inline constexpr std::string_view kUntanglingName = "untangling";
+/// Likewise of the pass that keeps the best variant of a neighbourhood. Its target is the tet in the middle.
+inline constexpr std::string_view kVariantsName = "variants";
 
 /// One attempt of an operator, or of a sequence, as the trace sees it. Vertices name the target in a
 /// way that outlives tet handles.
