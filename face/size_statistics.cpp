@@ -14,7 +14,7 @@ namespace tetmend::face {
 
 namespace {
 
-std::uint64_t key_of(VertexHandle a, VertexHandle b) {
+std::uint64_t key_of_edge(VertexHandle a, VertexHandle b) {
   if (b < a) std::swap(a, b);
   return std::uint64_t{a.index()} << 32 | b.index();
 }
@@ -70,12 +70,12 @@ SizeStatistics size_statistics(const TetMesh& mesh) {
     const TetHandle t(i);
     if (mesh.is_deleted(t)) continue;
     const TetVertices& v = mesh.vertices(t);
-    for (const auto& [j, k] : kEdgeVertices) edges.push_back(key_of(v[j], v[k]));
+    for (const auto& [j, k] : kEdgeVertices) edges.push_back(key_of_edge(v[j], v[k]));
     for (unsigned f = 0; f < 4; ++f) {
       const HalfFace face(t, f);
       if (!mesh.is_boundary(face) && !mesh.is_constrained(face)) continue;
       const auto [a, b, c] = mesh.vertices(face);
-      for (const std::uint64_t key : {key_of(a, b), key_of(b, c), key_of(c, a)}) {
+      for (const std::uint64_t key : {key_of_edge(a, b), key_of_edge(b, c), key_of_edge(c, a)}) {
         on_surface.push_back(key);
       }
     }
