@@ -412,7 +412,7 @@ class Writer {
         array.values);
   }
 
-  /// The path of the step of its field, which is made if need be. Arrays of one name share one, if they are alike.
+  /// The path of the step of its field, made if need be. Arrays of one name that are alike share one.
   std::string field_of(const DataArray& array) {
     const std::int32_t type = array.values.index() == 0   ? kMedInteger32
                               : array.values.index() == 1 ? kMedInteger64
