@@ -15,7 +15,7 @@ namespace {
 using Line = std::vector<Place>;
 using Mark = std::vector<Line>;
 
-Line ring(double radius) {
+Line circle(double radius) {
   constexpr unsigned kCorners = 20;
   Line line;
   for (unsigned i = 0; i <= kCorners; ++i) {
@@ -42,13 +42,13 @@ std::array<Mark, kOutcomeCount> make_marks() {
   const auto mark = [&](Outcome outcome) -> Mark& {
     return marks[static_cast<std::size_t>(outcome)];
   };
-  mark(Outcome::unfinished) = {ring(0.32)};
+  mark(Outcome::unfinished) = {circle(0.32)};
   mark(Outcome::accepted) = {{{0.12, 0.55}, {0.4, 0.82}, {0.88, 0.2}}};
   mark(Outcome::undone) = {
       {{0.4, 0.14}, {0.12, 0.4}, {0.4, 0.66}},
       {{0.12, 0.4}, {0.64, 0.4}, {0.84, 0.5}, {0.88, 0.68}, {0.78, 0.84}, {0.5, 0.86}}};
   mark(Outcome::no_improvement) = {{{0.12, 0.5}, {0.88, 0.5}}};
-  mark(Outcome::limit) = {ring(0.4), {{0.5, 0.24}, {0.5, 0.5}, {0.7, 0.6}}};
+  mark(Outcome::limit) = {circle(0.4), {{0.5, 0.24}, {0.5, 0.5}, {0.7, 0.6}}};
   mark(Outcome::constrained) = {{{0.18, 0.5}, {0.82, 0.5}, {0.82, 0.9}, {0.18, 0.9}, {0.18, 0.5}},
                                 shackle()};
   mark(Outcome::rejected) = {{{0.18, 0.18}, {0.82, 0.82}}, {{0.82, 0.18}, {0.18, 0.82}}};

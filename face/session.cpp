@@ -92,7 +92,7 @@ class Improver::Session {
 
   bool move(std::span<const std::array<double, 3>> points);
   void hold(std::function<bool(std::uint32_t)> must_stay) { must_stay_ = std::move(must_stay); }
-  Step improve(std::size_t attempts);
+  ImproverStep improve(std::size_t attempts);
   const Mesh& mesh() const;
   std::size_t point_count() const { return mesh_.vertex_count(); }
   std::size_t tet_count() const { return mesh_.tet_count(); }
@@ -103,9 +103,9 @@ class Improver::Session {
   void hold_vertices();
   void bound();
   MeshData data_at_work() const;
-  void run_passes(std::size_t attempts, Step& step);
+  void run_passes(std::size_t attempts, ImproverStep& step);
   void note_tried(bool all_were);
-  void end_step(Step& step);
+  void end_step(ImproverStep& step);
   bool is_plain() const {
     return options_.script.empty() && options_.schedule == Options().schedule;
   }
@@ -236,7 +236,7 @@ MeshData Improver::Session::data_at_work() const {
   return data;
 }
 
-void Improver::Session::run_passes(std::size_t attempts, Step& step) {
+void Improver::Session::run_passes(std::size_t attempts, ImproverStep& step) {
   face::Watcher watcher(options_);
   Run run(mesh_, plan_.registry);
   if (const auto most = plan_.growth.most(first_tets_)) run.set_most_tets(*most);
@@ -296,7 +296,7 @@ void Improver::Session::note_tried(bool all_were) {
 }
 
 /// The mesh is one for the program again; the step says where all went.
-void Improver::Session::end_step(Step& step) {
+void Improver::Session::end_step(ImproverStep& step) {
   const std::size_t old_points = mesh_before_.points;
   const std::size_t old_tets = mesh_before_.tets;
   tetmend::hold(mesh_, {});
@@ -327,10 +327,10 @@ void Improver::Session::end_step(Step& step) {
   if (!options_.maps) step.vertex_map = step.tet_map = {};
 }
 
-Step Improver::Session::improve(std::size_t attempts) {
+ImproverStep Improver::Session::improve(std::size_t attempts) {
   return face::on_threads(options_.threads, [&] {
     hold_vertices();
-    Step step;
+    ImproverStep step;
     mesh_before_ = {point_count(), tet_count()};
     step.before = quality_indicators(mesh_);
     step.bad_tets = mark(attempts);
@@ -370,7 +370,7 @@ bool Improver::move(std::span<const std::array<double, 3>> points) {
 void Improver::hold(std::function<bool(std::uint32_t)> must_stay) {
   session_->hold(std::move(must_stay));
 }
-Step Improver::improve(std::size_t attempts) {
+ImproverStep Improver::improve(std::size_t attempts) {
   return session_->improve(attempts);
 }
 const Mesh& Improver::mesh() const {

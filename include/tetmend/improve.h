@@ -312,7 +312,7 @@ TETMEND_API Result adapt(Mesh& mesh, const Options& options);
 TETMEND_API void check(const Options& options);
 
 /// What Improver::improve() did.
-struct Step {
+struct ImproverStep {
   Ending ending = Ending::finished;  ///< why it ended; `finished` also where attempts ran out
   std::size_t bad_tets = 0;      ///< those that had got bad, or worse, since they were last tried
   std::size_t attempts = 0;      ///< in all
@@ -331,7 +331,7 @@ struct Step {
 /// have got bad since they were last tried. The first call tries all bad tets.
 ///
 /// Vertices and tets are numbered as in mesh(): they keep their numbers while improve() finds
-/// nothing to change, and its Step says where they went else.
+/// nothing to change, and its result says where they went else.
 ///
 ///   tetmend::Improver session(std::move(mesh), {.threads = 4});
 ///   if (!session.move(points)) ...;  // a tet would turn over: nothing has moved
@@ -369,7 +369,7 @@ class TETMEND_API Improver {
   /// @param attempts after about that many it ends: the tet that is just tried may take a few more
   /// @throws as improve(); the mesh is sound and improved so far then
   /// Cost: linear for what it looks at, besides the attempts.
-  Step improve(std::size_t attempts = kAnyNumber);
+  ImproverStep improve(std::size_t attempts = kAnyNumber);
 
   /// As it is now, with labels, groups and data, carried over in each step as improve() does. Valid
   /// until the next move() or improve(). Cost: linear, once after each of them.

@@ -46,13 +46,13 @@ std::size_t count_gone(const std::vector<std::uint32_t>& map) {
 TEST_CASE(
     "a session tries all bad tets in its first step, and none in a second one without a move") {
   Improver session(Mesh(shaken_cube(6, 1.1)));
-  const Step first = session.improve();
+  const ImproverStep first = session.improve();
   CHECK(first.bad_tets > 20);
   CHECK(first.after.n_bad < first.before.n_bad / 2);
   CHECK(first.is_complete);
   CHECK(measure(session.mesh()).statistics.inverted == 0);
   const SessionPoints points = points_of(session);
-  const Step second = session.improve();
+  const ImproverStep second = session.improve();
   CHECK(second.bad_tets == 0);
   CHECK(second.attempts == 0);
   CHECK(second.touched_tets == 0);
@@ -66,7 +66,7 @@ TEST_CASE("a step of a session works only where the mesh got bad") {
   const Mesh before = session.mesh();
   REQUIRE(session.move(pressed(points_of(session), kCells, 4)));
   const SessionPoints moved = points_of(session);
-  const Step step = session.improve();
+  const ImproverStep step = session.improve();
   CHECK(step.bad_tets > 0);
   CHECK(step.after.n_bad < step.before.n_bad);
   CHECK(step.touched_tets > 0);
@@ -94,12 +94,12 @@ TEST_CASE("a step of a session works only where the mesh got bad") {
 TEST_CASE(
     "a step ends by its number of attempts, with the same bytes for every number of threads") {
   const MeshArrays cube = shaken_cube(26, 0.9);  // large enough to be divided among threads
-  const auto improved = [&](int threads, std::size_t attempts, Step& step) {
+  const auto improved = [&](int threads, std::size_t attempts, ImproverStep& step) {
     Improver session(Mesh(cube), {.threads = threads});
     step = session.improve(attempts);
     return session.mesh();
   };
-  Step whole, some, by_three;
+  ImproverStep whole, some, by_three;
   improved(1, Improver::kAnyNumber, whole);
   REQUIRE(whole.is_complete);
   const std::size_t few = whole.attempts / 10;
@@ -111,7 +111,7 @@ TEST_CASE(
   CHECK(some.accepted > 0);
   CHECK(are_same(by_one, improved(3, few, by_three)));
   CHECK(by_three.attempts == some.attempts);
-  Step none;
+  ImproverStep none;
   const Mesh untouched = improved(1, 0, none);
   CHECK(none.attempts == 0);
   CHECK_FALSE(none.is_complete);
@@ -120,7 +120,7 @@ TEST_CASE(
 
 TEST_CASE("where attempts ran out, the next step goes on") {
   Improver session(Mesh(shaken_cube(8, 1.0)));
-  Step step = session.improve(300);
+  ImproverStep step = session.improve(300);
   CHECK_FALSE(step.is_complete);
   const std::size_t left = step.after.n_bad;
   for (unsigned i = 0; i < 200 && !step.is_complete; ++i) step = session.improve(300);
@@ -169,7 +169,7 @@ TEST_CASE("a session moves the surface with the program, and keeps it otherwise"
   SessionPoints points = points_of(session);
   for (auto& [x, y, z] : points) x *= 1 + 0.1 * z;
   REQUIRE(session.move(points));
-  const Step step = session.improve();
+  const ImproverStep step = session.improve();
   CHECK(step.accepted > 0);
   const auto now = session.mesh().points();
   for (std::size_t v = 0; v < points.size(); ++v) {
@@ -185,7 +185,7 @@ TEST_CASE("vertices that must stay now stay, and are free again later") {
   Improver session(Mesh(shaken_cube(6, 1.0)));
   const SessionPoints points = points_of(session);
   session.hold([](std::uint32_t v) { return v % 2 == 0; });
-  const Step held = session.improve();
+  const ImproverStep held = session.improve();
   CHECK(held.accepted > 0);
   const auto now = session.mesh().points();
   for (std::size_t v = 0; v < points.size(); v += 2) {
@@ -195,7 +195,7 @@ TEST_CASE("vertices that must stay now stay, and are free again later") {
   session.hold({});
   REQUIRE(session.move(pressed(points_of(session), 6, 6)));
   const SessionPoints moved = points_of(session);
-  const Step free = session.improve();
+  const ImproverStep free = session.improve();
   std::size_t changed = 0;
   for (std::size_t v = 0; v < points.size(); v += 2) {
     const std::uint32_t there = free.vertex_map[held.vertex_map[v]];
@@ -227,7 +227,7 @@ TEST_CASE(
     SessionPoints points = points_of(session);
     for (auto& p : points) p[2] += 1;  // the data stay behind: heights are those of the start
     REQUIRE(session.move(points));
-    const Step step = session.improve();
+    const ImproverStep step = session.improve();
     const Mesh& mesh = session.mesh();
     REQUIRE(mesh.point_data().size() == 1);
     const auto& height = std::get<std::vector<double>>(mesh.point_data()[0].values);
@@ -280,7 +280,7 @@ TEST_CASE("options that no session has are refused by name") {
 
 TEST_CASE("a script of a program may be the step of a session") {
   Improver session(Mesh(shaken_cube(5, 1.0)), {.script = "smooth{} log('done')"});
-  const Step step = session.improve();
+  const ImproverStep step = session.improve();
   CHECK(step.accepted > 0);
   CHECK(step.notes == std::vector<std::string>{"done"});
   CHECK(session.tet_count() == 750);
