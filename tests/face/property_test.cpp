@@ -84,7 +84,7 @@ TEST_CASE("the sessions of solvers select by arrays that move with the mesh") {
   for (auto& p : points) p[0] += 100;
   REQUIRE(session.move(points));
   const Mesh before = session.mesh();
-  const Step step = session.improve();
+  const ImproverStep step = session.improve();
   CHECK(step.accepted > 10);
   for (std::size_t t = 0; t < step.tet_map.size(); ++t) {
     if (step.tet_map[t] != kGone) continue;

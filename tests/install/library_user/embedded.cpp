@@ -87,7 +87,7 @@ std::size_t follow(tetmend::Mesh mesh, int steps, double way) {
                                              session.mesh().points().end());
     for (auto& [x, y, z] : nodes) x += way / steps * z;
     if (!session.move(nodes)) break;  // a tet would turn over: shorter steps, please
-    const tetmend::Step step = session.improve(20000);
+    const tetmend::ImproverStep step = session.improve(20000);
     probe = step.vertex_map[probe];
     touched += step.touched_tets;
   }
