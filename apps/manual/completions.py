@@ -24,7 +24,7 @@ LESSONS = Path(__file__).resolve().parent.parent.parent / "assets" / "lessons"
 TAKES = {
     "IN": "mesh", "OUT": "mesh", "FILE": "mesh", "--output": "mesh", "--cells": "mesh", "--mesh": "mesh",
     "--before": "mesh", "--against": ".trace", "--reference": "mesh", "--tolerance": "", "surface OUT": ".off .obj .ply .stl", "trace FILE": ".trace", "trace --output": "file", "lesson --output": "file",
-    "lesson NAME": "<lesson>", "trace --html": "",
+    "lesson NAME": "<lesson>", "lesson --make": ".trace", "lesson --call": "", "lesson --title": "", "trace --html": "",
     "check-plugin FILE": ".so", "tetmend-view FILE": "mesh .trace", "operators NAME": "<operator>",
     "schedules NAME": "<schedule> .lua", "--schedule": "<schedule> .lua", "--set": "<setting>=",
     "check --measure": "<ruler>=", "improve --measure": "<objective>", "adapt --measure": "<objective>", "pieces --measure": "<objective>", "quality --measure": "<figure>",

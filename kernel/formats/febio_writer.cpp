@@ -214,7 +214,10 @@ class FebioWriter {
     out_.put("\t</Mesh>\n</febio_spec>\n");
   }
 
-  std::string name(const std::string& wanted) { return xml_escaped(names_.make(wanted)); }
+  /// Sets of different kinds may have the same name.
+  std::string name(const std::string& wanted, std::size_t dimension) {
+    return xml_escaped(names_[dimension].make(wanted));
+  }
 
   /// A block for each kind and label of volumes.
   void write_blocks(std::set<const Group*>& written) {
@@ -230,9 +233,9 @@ class FebioWriter {
       for (const Label label : labels) {
         const auto found = named.find(label);
         if (found != named.end()) written.insert(found->second);
-        out_.put(fmt::format("\t\t<Elements type=\"{}\" name=\"{}\">",
-                             febio_type(list->kind.vtk_type),
-                             name(found == named.end() ? label_name(label) : found->second->name)));
+        out_.put(
+            fmt::format("\t\t<Elements type=\"{}\" name=\"{}\">", febio_type(list->kind.vtk_type),
+                        name(found == named.end() ? label_name(label) : found->second->name, 3)));
         write_elements(label, list->kind.vtk_type);
         out_.put("</Elements>\n");
       }
@@ -267,7 +270,7 @@ class FebioWriter {
   }
 
   void put_surface(const std::string& of, const std::vector<GroupMembers::Member>& members) {
-    out_.put(fmt::format("\t\t<Surface name=\"{}\">\n", name(of)));
+    out_.put(fmt::format("\t\t<Surface name=\"{}\">\n", name(of, 2)));
     put_rows(out_, members.size(), [&](std::size_t i, OutputBuffer& buffer) {
       const ElementList& list = lists_.all()[members[i].list];
       const std::string_view type = febio_type(list.kind.vtk_type);
@@ -283,11 +286,11 @@ class FebioWriter {
       const Group& group = mesh_.data()->groups[g];
       if (group.name.empty() || written.contains(&group)) continue;
       if (group.dimension == 3) {
-        out_.put(fmt::format("\t\t<ElementSet name=\"{}\">\n", name(group.name)));
+        out_.put(fmt::format("\t\t<ElementSet name=\"{}\">\n", name(group.name, 3)));
         put_elements_of(members_[g], {});
         out_.put("\t\t</ElementSet>\n");
       } else if (group.dimension == 0) {
-        out_.put(fmt::format("\t\t<NodeSet name=\"{}\">\n", name(group.name)));
+        out_.put(fmt::format("\t\t<NodeSet name=\"{}\">\n", name(group.name, 0)));
         put_nodes_of(members_[g], {});
         out_.put("\t\t</NodeSet>\n");
       }
@@ -303,7 +306,7 @@ class FebioWriter {
   std::map<std::pair<int, Label>, std::size_t> group_of_;  // by dimension and number
   std::map<Label, std::vector<GroupMembers::Member>> of_label_;
   std::map<Label, std::vector<std::uint32_t>> points_of_block_;
-  UniqueNames names_;
+  std::array<UniqueNames, 4> names_;  // by dimension
 };
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <cmath>
 #include <map>
 #include <set>
 #include <string>
@@ -47,6 +48,11 @@ std::string real_in_room(double value, std::size_t room) {
   text = fmt::format("{}e{}", text.substr(0, e), exponent);
   for (int digits = 17; text.size() > room && digits > 0; --digits) {
     text = fmt::format("{:.{}g}", value, digits);
+  }
+  // The largest numbers may be rounded out of the range of a double.
+  double again = 0;
+  if (std::isfinite(value) && (!nastran_real(text, again) || !std::isfinite(again))) {
+    return real_in_room(value * (1 - 1e-8), room);
   }
   return text;
 }

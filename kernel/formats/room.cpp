@@ -107,6 +107,7 @@ std::vector<const Group*> kept_groups(const MeshData& mesh, const Room& room) {
   std::vector<const Group*> kept;
   for (const Group& group : mesh.groups) {
     if (group.name.empty()) continue;
+    if (group.dimension == 1 && !room.edges) continue;
     const bool is_point_group = keeps_points && group.dimension == 0 && group.number > 0;
     if (room.groups || is_point_group || (room.marks && is_medits(group)) ||
         whole.contains(&group)) {

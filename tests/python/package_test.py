@@ -218,7 +218,7 @@ def test_what_is_wrong_with_arrays_is_a_value_error_with_its_place(points, tets,
 
 @pytest.mark.parametrize(("options", "message"), [
     ({"goal": 80}, "goal"), ({"threads": 0}, "threads"), ({"threads": "many"}, "threads"), ({"time_limit": -1}, "time_limit"),
-    ({"schedule": "quick"}, "quick"), ({"protect": "colour:3"}, "protect"), ({"set": {"nothing": 1}}, "nothing"),
+    ({"schedule": "swift"}, "swift"), ({"protect": "colour:3"}, "protect"), ({"set": {"nothing": 1}}, "nothing"),
     ({"goal": [1, 2, 3]}, "goal"), ({"measure": object()}, "measure"), ({"conserve": "heat"}, "conserve")])
 def test_what_is_wrong_with_options_is_a_value_error_that_names_them(options, message):
     with pytest.raises(ValueError, match=message):

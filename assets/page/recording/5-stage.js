@@ -225,7 +225,7 @@ function moveInLesson(by) {
   if (!lesson) return;
   if (isOnStage()) {
     if (lesson.steps[place.lesson + by]) goToLesson(place.lesson + by);
-    else if (by > 0 && byId("to-next")) location.href = byId("to-next").href;  // the next lesson
+    else if (by > 0 && byId("to-next")) byId("to-next").click();  // the next lesson
     return;
   }
   const {position} = steps[place.step];
