@@ -244,8 +244,7 @@ void Improvement::build_mesh(MeshData& data, Mending mending) {
   result_.layer_tets = part.layer_tets;
   result_.layer_bad_tets = part.layer_bad_tets;
   if (plan_.purpose.keeps_step) diagonals_ = p1_diagonals(mesh_);
-  auto [bounds, holds_solver] =
-      face::bounds_of_run(mesh_, diagonals_ ? &*diagonals_ : nullptr);
+  auto [bounds, holds_solver] = face::bounds_of_run(mesh_, diagonals_ ? &*diagonals_ : nullptr);
   result_.holds_solver = holds_solver;
   if (plan_.sizes.are_wanted()) {  // of another mesh than the one that is asked for
     bounds = Bounds();
