@@ -145,7 +145,8 @@ TetMesh build_first(const Piece& gathered, BuildReport& report) {
     const std::uint32_t number = number_of(error.tet());
     if (number == PieceTet::kNone) throw;
     if (const auto other = find_again(gathered, error.tet())) {
-      const auto [first, again] = std::minmax(number, number_of(*other));
+      const auto [first, again] =
+          std::minmax({number, number_of(*other)});  // values, not references
       throw Error(fmt::format(
           "tet {} of the file is tet {} again: a run in pieces drops none, 'tetmend convert' does",
           std::uint64_t{again} + 1, std::uint64_t{first} + 1));
