@@ -41,9 +41,7 @@ endif()
 set(tetmend_static_libraries stdc++ m)
 list(REMOVE_DUPLICATES tetmend_libraries_inside)
 foreach(library IN LISTS tetmend_libraries_inside)
-  if(library MATCHES "PkgConfig::tetmend_serial_hdf5")
-    list(APPEND tetmend_static_libraries hdf5_serial)  # Debian has several HDF5 side by side
-  elseif(library MATCHES "PkgConfig::([A-Za-z0-9_]+)")  # also within a generator expression: a choice of Lua
+  if(library MATCHES "PkgConfig::([A-Za-z0-9_]+)")  # also within a generator expression: a choice of Lua
     list(APPEND tetmend_static_libraries ${${CMAKE_MATCH_1}_LIBRARIES})
   elseif(library MATCHES "^(fmt)::fmt$|^TBB::(tbb)$")
     list(APPEND tetmend_static_libraries ${CMAKE_MATCH_1}${CMAKE_MATCH_2})

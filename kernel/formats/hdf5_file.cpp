@@ -401,18 +401,19 @@ class MemoryWriter final : public Hdf5Writer {
   std::optional<Hdf5Handle> file_;
 };
 
-}  // namespace
+constexpr Hdf5Driver kDriver = {
+    .open = [](const InputFile& file, std::string_view format) -> std::unique_ptr<Hdf5Reader> {
+      return std::make_unique<MemoryReader>(file, format);
+    },
+    .make = [](std::string name) -> std::unique_ptr<Hdf5Writer> {
+      return std::make_unique<MemoryWriter>(std::move(name));
+    }};
 
-bool has_hdf5() {
+[[maybe_unused]] const bool kIsProvided = [] {
+  provide_hdf5(kDriver);
   return true;
-}
+}();
 
-std::unique_ptr<Hdf5Reader> open_hdf5(const InputFile& file, std::string_view format) {
-  return std::make_unique<MemoryReader>(file, format);
-}
-
-std::unique_ptr<Hdf5Writer> make_hdf5(std::string name, std::string_view) {
-  return std::make_unique<MemoryWriter>(std::move(name));
-}
+}  // namespace
 
 }  // namespace tetmend::formats

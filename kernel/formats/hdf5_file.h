@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Files of HDF5 in memory: tables and texts by their paths, "ENS_MAA/part". Formats that are made of
-// them need no header of HDF5, and a build without it says so when a file is opened.
+// them need no header of HDF5, and a program without it says so when a file is opened.
 #pragma once
 
 #include <cstddef>
@@ -16,7 +16,8 @@
 
 namespace tetmend::formats {
 
-/// False in a build without HDF5.
+/// False in a program without HDF5. The library has none: a process has room for one HDF5, and who
+/// links the library may have another one, as PETSc does.
 bool has_hdf5();
 
 /// What is asked for must be there, unless it says otherwise: all functions throw Error
@@ -50,7 +51,7 @@ class Hdf5Reader {
 };
 
 /// The bytes of `file` must stay. @param format what messages call the format: "MED"
-/// @throws Error where they are none of HDF5, or this build has no HDF5
+/// @throws Error where they are none of HDF5, or this program has no HDF5
 std::unique_ptr<Hdf5Reader> open_hdf5(const InputFile& file, std::string_view format);
 
 /// The same calls make the same bytes. Groups on the way to a path are made if need be.
@@ -73,7 +74,16 @@ class Hdf5Writer {
 };
 
 /// @param name what messages call the file
-/// @throws Error where this build has no HDF5
+/// @throws Error where this program has no HDF5
 std::unique_ptr<Hdf5Writer> make_hdf5(std::string name, std::string_view format);
+
+/// The HDF5 of a program: hdf5_file.cpp, where a program is linked with it, provides its own when the
+/// program starts.
+struct Hdf5Driver {
+  std::unique_ptr<Hdf5Reader> (*open)(const InputFile& file, std::string_view format);
+  std::unique_ptr<Hdf5Writer> (*make)(std::string name);
+};
+/// `of_program` must outlive all calls. Before any of them.
+void provide_hdf5(const Hdf5Driver& of_program);
 
 }  // namespace tetmend::formats

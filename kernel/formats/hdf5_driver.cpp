@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+// Which HDF5 a program has, if any.
+#include <fmt/format.h>
+
+#include "kernel/error.h"
+#include "kernel/formats/hdf5_file.h"
+
+namespace tetmend::formats {
+namespace {
+
+constinit const Hdf5Driver* driver = nullptr;
+
+const Hdf5Driver& driver_for(const std::string& name, std::string_view format) {
+  if (driver != nullptr) return *driver;
+  throw Error(fmt::format("{}: this program has no {}: it was made without HDF5", name, format));
+}
+
+}  // namespace
+
+void provide_hdf5(const Hdf5Driver& of_program) {
+  driver = &of_program;
+}
+
+bool has_hdf5() {
+  return driver != nullptr;
+}
+
+std::unique_ptr<Hdf5Reader> open_hdf5(const InputFile& file, std::string_view format) {
+  return driver_for(file.name(), format).open(file, format);
+}
+
+std::unique_ptr<Hdf5Writer> make_hdf5(std::string name, std::string_view format) {
+  return driver_for(name, format).make(std::move(name));
+}
+
+}  // namespace tetmend::formats
