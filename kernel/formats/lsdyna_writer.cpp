@@ -77,6 +77,8 @@ const std::uint8_t* order_of_solid(int vtk_type) {
   }
 }
 
+constexpr Label kMostPart = 99999999;  // what a field of eight characters holds
+
 bool is_solid(const ElementList& list) {
   return list.kind.vtk_type == vtk_tet10 || order_of_solid(list.kind.vtk_type) != nullptr;
 }
@@ -242,7 +244,7 @@ class LsDynaWriter {
 
   // ---- A mesh of another format -------------------------------------------------------------------
 
-  /// Parts count from 1: other labels get the next numbers.
+  /// Parts count from 1 and have eight digits at most: other labels get the next numbers.
   void number_parts() {
     std::set<Label> labels;
     for (const ElementList& list : lists_.all()) {
@@ -250,7 +252,7 @@ class LsDynaWriter {
     }
     Label next = 0;
     for (const Label label : labels) {
-      if (label > 0) {
+      if (label > 0 && label <= kMostPart) {
         part_of_[label] = label;
         continue;
       }
@@ -379,9 +381,18 @@ std::vector<std::string> not_in_lsdyna(const std::filesystem::path&, const MeshD
   for (const Point& point : mesh.points) {
     for (int axis = 0; axis < 3; ++axis) rounded += loses_digits(point[axis], room) ? 1 : 0;
   }
-  if (rounded == 0) return {};
-  return {fmt::format("{} coordinates are rounded to {} characters, which is what LS-DYNA reads",
-                      rounded, room)};
+  std::vector<std::string> notes;
+  if (rounded > 0) {
+    notes.push_back(fmt::format(
+        "{} coordinates are rounded to {} characters, which is what LS-DYNA reads", rounded, room));
+  }
+  const auto too_long = std::count_if(mesh.tets.begin(), mesh.tets.end(),
+                                      [](const MeshData::Tet& t) { return t.label > kMostPart; });
+  if (too_long > 0) {
+    notes.push_back(fmt::format(
+        "{} labels have more than eight digits: their parts get other numbers", too_long));
+  }
+  return notes;
 }
 
 }  // namespace tetmend::formats
