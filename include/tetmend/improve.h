@@ -338,7 +338,7 @@ struct ImproverStep {
 ///   session.improve(20000);          // about that many attempts at most
 class TETMEND_API Improver {
  public:
-  static constexpr std::size_t kAnyNumber = std::numeric_limits<std::size_t>::max();
+  static constexpr std::size_t kAnyNumber = std::numeric_limits<std::size_t>::max();  ///< of attempts
 
   /// Options are those of improve(): goal, measure, purpose, threads, protect, only, layers,
   /// keep_size, conserve, tets (of those at the start), plugin, progress, cancel, and time_limit of
@@ -349,7 +349,9 @@ class TETMEND_API Improver {
   /// trace, limit, straighten; Error as improve(), and for a mesh of second order
   explicit Improver(Mesh mesh, Options options = {});
   ~Improver();
+  /// What is left may only be destroyed or assigned to.
   Improver(Improver&& other) noexcept;
+  /// Likewise.
   Improver& operator=(Improver&& other) noexcept;
 
   /// All points go where the program says, those of the surface too. False if a tet with a positive

@@ -423,16 +423,9 @@ class TetMesh:
     @overload
     def operator(self, target: str, function: Function, *, judge: Callable[..., Any] | None = None) -> Function: ...
     def operator(self, target: str, function: Any = None, *, judge: Callable[..., Any] | None = None) -> Any:
-        """Makes a function an operator of this mesh, under its name, for a 'vertex', an 'edge', a 'face' or a 'tet'::
+        """Makes a function an operator of this mesh, under its name, for a 'vertex', an 'edge', a 'face' or a 'tet'.
 
-            @mesh.operator("edge")
-            def my_flip(look, a, b):
-                ring = look.ring(a, b)
-                if ring.closed and len(ring.tets) == 3:
-                    p, q, r = ring.vertices
-                    look.replace(ring.tets, [(a, p, q, r), (p, q, r, b)])
-
-        The function gets a Look and the vertices of the target, and proposes other tets or another place for a vertex, or nothing. The
+        A decorator, as `@mesh.operator("edge")`. The function gets a Look and the vertices of the target, and proposes other tets or another place for a vertex, or nothing. The
         attempt does that and undoes it unless the judge accepts it: that of tetmend, or `judge(before, now)` of the corners of all tets
         that changed, arrays (k, 4, 3). A proposal that breaks the mesh is refused.
         """
