@@ -394,7 +394,9 @@ class TetMesh:
     # --- changes
 
     def edit(self) -> Edit:
-        """A scope for changes, undone at its end unless it is kept::
+        """A scope for changes, undone at its end unless it is kept.
+
+        For instance::
 
             with mesh.edit() as edit:
                 edit.flip_3_2(a, b) and worst(edit.after) > worst(edit.before) and edit.keep()
@@ -425,9 +427,9 @@ class TetMesh:
     def operator(self, target: str, function: Any = None, *, judge: Callable[..., Any] | None = None) -> Any:
         """Makes a function an operator of this mesh, under its name, for a 'vertex', an 'edge', a 'face' or a 'tet'.
 
-        A decorator, as `@mesh.operator("edge")`. The function gets a Look and the vertices of the target, and proposes other tets or another place for a vertex, or nothing. The
-        attempt does that and undoes it unless the judge accepts it: that of tetmend, or `judge(before, now)` of the corners of all tets
-        that changed, arrays (k, 4, 3). A proposal that breaks the mesh is refused.
+        A decorator, as `@mesh.operator("edge")`. The function gets a Look and the vertices of the target, and proposes other tets or
+        another place for a vertex, or nothing. The attempt does that and undoes it unless the judge accepts it: that of tetmend, or
+        `judge(before, now)` of the corners of all tets that changed, arrays (k, 4, 3). A proposal that breaks the mesh is refused.
         """
         if function is None:
             return lambda decorated: self.operator(target, decorated, judge=judge)
@@ -446,7 +448,9 @@ class TetMesh:
         self._operators[name] = (target, function, judge)
 
     def apply(self, operator: str, *, below: float = 1, sweeps: int = 1, **settings: float) -> dict[str, int]:
-        """Tries an operator in and around each tet with a quality below a limit, the worst first. Returns the number of attempts by verdict.
+        """Tries an operator in and around each tet with a quality below a limit, the worst first.
+
+        Returns the number of attempts by verdict.
 
         In one thread: a loop of attempt(). See schedule() for passes.
         """
@@ -471,7 +475,9 @@ class TetMesh:
         return count
 
     def schedule(self, name_or_script: str, *, threads: int = 1, **settings: object) -> list[PassDone]:
-        """Makes the passes of a schedule, by its name, or of a script; operators of this mesh may be among them::
+        """Makes the passes of a schedule, by its name, or of a script; operators of this mesh may be among them.
+
+        For instance::
 
             mesh.schedule("local_reconnection{} smooth{} apply('my_flip')", threads=4)
 
