@@ -396,10 +396,8 @@ class TetMesh:
     def edit(self) -> Edit:
         """A scope for changes, undone at its end unless it is kept.
 
-        For instance::
-
-            with mesh.edit() as edit:
-                edit.flip_3_2(a, b) and worst(edit.after) > worst(edit.before) and edit.keep()
+        `with mesh.edit() as edit:` begins one; in it, edit.flip_3_2(a, b) and the like change the mesh, edit.before and edit.after are the
+        corners of what changed, and edit.keep() keeps it.
         """
         return Edit(self._core)
 
@@ -477,12 +475,8 @@ class TetMesh:
     def schedule(self, name_or_script: str, *, threads: int = 1, **settings: object) -> list[PassDone]:
         """Makes the passes of a schedule, by its name, or of a script; operators of this mesh may be among them.
 
-        For instance::
-
-            mesh.schedule("local_reconnection{} smooth{} apply('my_flip')", threads=4)
-
-        Settings are the parameters of the schedule. The result is the same for every number of threads; an operator in Python
-        is called by one of them.
+        A script tries an operator of the mesh by `apply('my_flip')`. Settings are the parameters of the schedule. The result is the
+        same for every number of threads; an operator in Python is called by one of them.
         """
         texts = [(name, str(value).lower() if isinstance(value, bool) else str(value)) for name, value in settings.items()]
         return [PassDone(*each) for each in self._core.schedule(name_or_script, texts, threads)]
