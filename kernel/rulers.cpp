@@ -176,7 +176,7 @@ TETMEND_WIDE void measure(const PointRows<4>& rows, Tally<kTetRulers>& tally,
 /// What the four faces of each tet of a block have beyond them: a vertex of the tet there.
 struct Surroundings {
   // A face that another tet counts, and those that count.
-  static constexpr double elsewhere = 0, inner = 1, boundary = 2;
+  static constexpr double kElsewhere = 0, kInner = 1, kBoundary = 2;
   PointRows<4> points;
   std::array<std::array<WideVector, PointRows<4>::kMost / kWideLanes>, 4> kinds;
 
@@ -184,7 +184,7 @@ struct Surroundings {
   void pad() {
     points.pad();
     for (std::size_t lane = points.size(); lane % kWideLanes != 0; ++lane) {
-      for (auto& kind : kinds) kind[lane / kWideLanes][lane % kWideLanes] = elsewhere;
+      for (auto& kind : kinds) kind[lane / kWideLanes][lane % kWideLanes] = kElsewhere;
     }
   }
 };
@@ -245,10 +245,10 @@ TETMEND_WIDE void measure_faces(const PointRows<4>& rows, const Surroundings& su
     const WideVector kind = surroundings.kinds[f][g];
     const FaceScores scores = score_face(
         wide_point(group, f), wide_point(group, i), wide_point(group, j), wide_point(group, k),
-        wide_point(surroundings.points.group(g), f), kind == Surroundings::boundary);
-    enter(tally, 0, g, scores.cosine, kind == Surroundings::inner);
+        wide_point(surroundings.points.group(g), f), kind == Surroundings::kBoundary);
+    enter(tally, 0, g, scores.cosine, kind == Surroundings::kInner);
     above.counts += tally.scores[0][g] < above.cosine ? one : zero;
-    enter(tally, 1, g, scores.skewness, kind != Surroundings::elsewhere);
+    enter(tally, 1, g, scores.skewness, kind != Surroundings::kElsewhere);
   }
 }
 
@@ -353,10 +353,10 @@ class Surveyor {
         const HalfFace other = is_outside ? HalfFace(t, f) : twins[f];
         const bool is_inner = t < other.tet();
         beyond[f] = &mesh_.point(mesh_.vertices(other.tet())[other.face()]);
-        surroundings_.kinds[f][i / kWideLanes][i % kWideLanes] = is_outside ? Surroundings::boundary
-                                                                 : is_inner
-                                                                     ? Surroundings::inner
-                                                                     : Surroundings::elsewhere;
+        surroundings_.kinds[f][i / kWideLanes][i % kWideLanes] =
+            is_outside ? Surroundings::kBoundary
+            : is_inner ? Surroundings::kInner
+                       : Surroundings::kElsewhere;
         inner += is_inner ? 1 : 0;
         boundary += is_outside ? 1 : 0;
       }

@@ -36,8 +36,8 @@ std::filesystem::path file_of(const nlohmann::json& json, const char* member,
 }
 
 /// The place of a word in a list.
-template <std::size_t n>
-std::size_t place_of(const std::string& word, const std::array<std::string_view, n>& words,
+template <std::size_t N>
+std::size_t place_of(const std::string& word, const std::array<std::string_view, N>& words,
                      std::string_view what) {
   const auto found = std::find(words.begin(), words.end(), word);
   if (found != words.end()) return static_cast<std::size_t>(found - words.begin());

@@ -329,26 +329,14 @@ void write_core(LessonWriter& lesson) {
              {Focus::picture, Focus::ring});
 }
 
-void write_two_shells(LessonWriter& lesson) {
-  const auto is = [](Algorithm algorithm, unsigned level) {
-    return [algorithm, level](const Call& c) {
-      return c.algorithm == algorithm && c.level == level && c.accepted();
-    };
-  };
-  constexpr Algorithm kRecursive = Algorithm::recursion;
-  constexpr Algorithm kPlain = Algorithm::shell_transformation;
+/// Of the lesson on two shells, until the recursion calls itself.
+void tell_first_shell(LessonWriter& lesson, const Call& inner) {
   const Call& root = lesson.call(0);
   const Call& first = lesson.call(1);
-  const std::uint32_t inner_number = lesson.find(2, is(kRecursive, 1));
-  const Call& inner = lesson.call(inner_number);
-  const Call& second = lesson.call(lesson.find(inner_number, is(kPlain, 1)));
-  const Call& third = lesson.call(lesson.find(inner.subtree_end, is(kPlain, 0)));
   const std::uint32_t a = inner.target()[0].index();
   const std::uint32_t b = inner.target()[1].index();
   const auto ring = lesson.around(0, 0, 1);
   const auto reduced = lesson.around(first.events.end, 0, 1);
-  const auto last = lesson.around(inner.events.end, 0, 1);
-
   lesson.say(0,
              fmt::format("Two shells that overlap, as in Figure 5 of the paper: that of the "
                          "edge 0 1 with {} tets, and that of the edge {} {}. The edge 0 1 is to "
@@ -367,6 +355,26 @@ void write_two_shells(LessonWriter& lesson) {
                          "gone, the core {} stays, and so does the edge.",
                          ring.size(), reduced.size(), join(without(ring, reduced)), join(reduced)),
              {Focus::picture, Focus::ring});
+}
+
+void write_two_shells(LessonWriter& lesson) {
+  const auto is = [](Algorithm algorithm, unsigned level) {
+    return [algorithm, level](const Call& c) {
+      return c.algorithm == algorithm && c.level == level && c.accepted();
+    };
+  };
+  constexpr Algorithm kRecursive = Algorithm::recursion;
+  constexpr Algorithm kPlain = Algorithm::shell_transformation;
+  const Call& root = lesson.call(0);
+  const std::uint32_t inner_number = lesson.find(2, is(kRecursive, 1));
+  const Call& inner = lesson.call(inner_number);
+  const Call& second = lesson.call(lesson.find(inner_number, is(kPlain, 1)));
+  const Call& third = lesson.call(lesson.find(inner.subtree_end, is(kPlain, 0)));
+  const std::uint32_t a = inner.target()[0].index();
+  const std::uint32_t b = inner.target()[1].index();
+  const auto last = lesson.around(inner.events.end, 0, 1);
+
+  tell_first_shell(lesson, inner);
   lesson.say(inner.events.begin + 1,
              fmt::format("A supporting face goes when one of its link edges does. The face of 0 1 "
                          "and {0} has the link edge {1} {0}, at which the shell is not convex. The "

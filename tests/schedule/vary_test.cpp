@@ -52,14 +52,14 @@ TEST_CASE("the best of many variants is better than what was there, and the surf
   TetMesh mesh(delaunay_ball(400, 3));
   const std::vector<Quality> before = qualities(mesh);
   const std::uint64_t surface = surface_fingerprint(mesh);
-  const double volume = total_volume(mesh);
+  const double volume = test::total_volume(mesh);
   Run run(mesh, kRegistry);
   vary(run, {.on = {.worst = 6}, .rings = 3, .variants = 4});
   CHECK(run.records.back().accepted() > 0);
   CHECK(bad(qualities(mesh)) < bad(before));
   CHECK(improves(qualities(mesh), before));
   CHECK(surface_fingerprint(mesh) == surface);
-  CHECK(total_volume(mesh) == doctest::Approx(volume).epsilon(1e-12));
+  CHECK(test::total_volume(mesh) == doctest::Approx(volume).epsilon(1e-12));
   CHECK(check_integrity(mesh).empty());
 }
 
