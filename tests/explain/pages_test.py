@@ -216,14 +216,17 @@ class Pages(unittest.TestCase):
 
     def test_each_step_of_each_page_of_the_lecture_is_whole(self) -> None:
         made = {page.name: page.read_bytes() for page in (WORK / "lessons").iterdir()}
-        walked = 0
+        walked = skipped = 0
         for page in sorted(LECTURES.glob("*.html")):
-            if page.name == "index.html" or made.get(page.name) == page.read_bytes():  # of a lesson: another test walks it
+            if page.name == "index.html":
+                continue
+            if made.get(page.name) == page.read_bytes():  # of a lesson: another test walks it
+                skipped += 1
                 continue
             with self.subTest(page=page.name):
                 self.walk(self.desk, page)
                 walked += 1
-        self.assertEqual(walked + len(made) - 1, len(list(LECTURES.glob("*.html"))) - 1)
+        self.assertEqual(walked + skipped, len(list(LECTURES.glob("*.html"))) - 1)
         self.assertGreaterEqual(walked, 2)
 
     def test_the_index_of_the_lecture_leads_to_pages_that_can_be_seen(self) -> None:
