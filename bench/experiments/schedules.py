@@ -22,11 +22,11 @@ ELSEWHERE = (
 
 
 def names() -> list[str]:
-    """What `tetmend schedules` lists; table2 is an experiment of its own, adapt is told lengths."""
+    """What `tetmend schedules` lists; table2 is an experiment of its own, adapt is told lengths, best takes the time it is given."""
     program = str(compare.BUILD / "bin" / "tetmend")
     listing = subprocess.run([program, "schedules"], check=True, capture_output=True, text=True)
     lines = [line for line in listing.stdout.splitlines() if not line.startswith(" ")]
-    return [line.split()[0] for line in lines if line.split()[0] not in ("table2", "adapt")]
+    return [line.split()[0] for line in lines if line.split()[0] not in ("table2", "adapt", "best")]
 
 
 def main() -> None:
