@@ -338,7 +338,8 @@ struct ImproverStep {
 ///   session.improve(20000);          // about that many attempts at most
 class TETMEND_API Improver {
  public:
-  static constexpr std::size_t kAnyNumber = std::numeric_limits<std::size_t>::max();  ///< of attempts
+  static constexpr std::size_t kAnyNumber =
+      std::numeric_limits<std::size_t>::max();  ///< of attempts
 
   /// Options are those of improve(): goal, measure, purpose, threads, protect, only, layers,
   /// keep_size, conserve, tets (of those at the start), plugin, progress, cancel, and time_limit of
