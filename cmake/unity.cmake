@@ -20,3 +20,11 @@ function(tetmend_unity target)
     endif()
   endforeach()
 endfunction()
+
+# tetmend_cold(TARGETS...): code that turns figures into words and pages, or reads what was typed. It runs once, so it is
+# compiled for less time, not for less time of a run.
+function(tetmend_cold)
+  foreach(target IN LISTS ARGN)
+    target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
+  endforeach()
+endfunction()
