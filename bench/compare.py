@@ -50,7 +50,7 @@ Rivals that Debian does not have are found through environment variables:
 Other measurements, each with a --help and a --write of its own:
   script/bench --schedules [MESH...]   all schedules of tetmend
   script/bench --growth                time and memory for each tet, 10 thousand to 37 million tets
-  script/bench --cores [MESH]          what more cores would make of a run
+  script/bench --cores [MESH]          what more cores make of a run: measured, and by a model
   script/bench --files [MESH]          reading and writing of each format
   script/bench --promises [MESH...]    is a figure ever worse than before: meshes of all kinds
   script/bench --renumbered MESH...    what the order of vertices and tets changes

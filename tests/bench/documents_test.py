@@ -275,6 +275,19 @@ class Tables(unittest.TestCase):
         self.assertEqual(passes[1], ["smoothing", "0.58", "43.7", "0.44"])
         self.assertEqual(blocks[1], ["1", "93.22", "0.0", "1.51", "1.0", "4315", "0.2768"])
 
+    def test_threads_that_were_measured_stand_before_the_model(self) -> None:
+        runs = [cores.Run("cube", "shell", threads, improving, 0.25, improving + 1)
+                for threads, improving in ((1, 4.0), (1, 4.2), (1, 9.0), (4, 1.4), (4, 1.5), (4, 1.6))]
+        with tempfile.TemporaryDirectory() as folder:
+            cores.Measured(MADE, runs).save(Path(folder) / "saved.json")
+            measured = cores.Measured.load(Path(folder) / "saved.json")
+        page = cores.page(MADE, {"cube": PRINTED}, [measured])
+        self.assertIn("the median of 3", " ".join(page.split()))
+        table, *model = tables(page)
+        self.assertEqual(table[1:], [["cube", "shell", "1", "4.20", "1.0", "0.25", "5.20"],
+                                     ["cube", "shell", "4", "1.50", "2.8", "0.25", "2.50"]])
+        self.assertEqual(len(model), 3)
+
     def test_a_row_of_files_has_the_speed_of_reading(self) -> None:
         seconds = {"reading": 0.1, "building": 0.2, "writing": 0.4}
         self.assertEqual(files.row("MEDIT", 45_400_000, 2, seconds),
