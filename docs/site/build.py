@@ -3,6 +3,8 @@
 themselves, and has Sphinx write HTML. Called by script/site."""
 
 import argparse
+import html
+import json
 import os
 import re
 import shutil
@@ -52,7 +54,7 @@ COMMANDS = ["improve", "adapt", "pieces", "quality", "check", "convert", "surfac
 
 FENCE = re.compile(r"^(```.*?^```[^\n]*$)", re.M | re.S)
 LINK = re.compile(r"(!?)\[((?:[^\[\]]|\[[^\]]*\])*)\]\(([^()\s#]*)(#[^()\s]*)?\)")
-COMMENT = re.compile(r"<!--.*?-->\n*", re.S)
+COMMENT = re.compile(r"<!--.*?-->\n?", re.S)  # the empty line below stays: it ends a table
 
 
 def place_of(target: Path) -> Path | None:
@@ -310,6 +312,25 @@ def complete_theme(static: Path) -> None:
         script.write_text((static / "scripts" / "gumshoe-patched.js").read_text() + text.replace(wanted, ""))
 
 
+def text_of(page: Path) -> str:
+    """The words of its article."""
+    [article] = re.findall(r'<article role="main">(.*?)</article>', page.read_text(), re.S)
+    article = re.sub(r'<a class="headerlink".*?</a>|<(script|style).*?</\1>', "", article, flags=re.S)
+    return " ".join(html.unescape(re.sub(r"<[^>]*>", " ", article)).split())
+
+
+def add_texts(site: Path) -> None:
+    """A browser lets no page that was opened as a file read others, so that of the search has their words beside it."""
+    texts = {page.relative_to(site).as_posix(): text_of(page) for page in sorted(site.rglob("*.html")) if page.name != "search.html"}
+    (site / "_static" / "texts.js").write_text(f"const TETMEND_TEXTS = {json.dumps(texts, ensure_ascii=False)};\n")
+    search = site / "search.html"
+    wanted = '<script src="_static/search.js"></script>'
+    text = search.read_text()
+    if wanted not in text:
+        raise Failure("search.html does not load search.js: the search would show titles alone")
+    search.write_text(text.replace(wanted, f'<script src="_static/texts.js"></script>\n    {wanted}'))
+
+
 def build(output: Path, program: Path) -> int:
     """The number of pages. `output` is replaced when all of them are there."""
     if not os.access(program, os.X_OK):
@@ -331,6 +352,7 @@ def build(output: Path, program: Path) -> int:
         add_navigation(pages)
         run_sphinx(pages, work / "html", work)
         complete_theme(work / "html" / "_static")
+        add_texts(work / "html")
         shutil.copytree(ROOT / WHOLE, work / "html" / WHOLE.name)
         for unused in ["objects.inv", ".buildinfo"]:
             (work / "html" / unused).unlink(missing_ok=True)
