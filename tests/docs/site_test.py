@@ -71,7 +71,7 @@ class Page(HTMLParser):
         self.is_hidden = tag in ("script", "style", "title")
 
     def handle_endtag(self, tag: str) -> None:
-        if self.depth_of_article:
+        if self.depth_of_article and tag not in EMPTY_ELEMENTS:  # <img/> is told as a beginning and an end
             self.depth_of_article -= 1
         self.is_hidden = False
 
