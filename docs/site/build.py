@@ -27,8 +27,8 @@ ROOT = HERE.parent.parent
 NAVIGATION: dict[str, list[str]] = {
     "index": ["start", "install", "howto", "choosing", "report", "troubleshooting", "extending",
               "overview", "reliability", "results", "reference"],
-    "howto": ["howto/gmsh", "howto/paraview", "howto/fenicsx", "howto/calculix", "howto/su2", "howto/openfoam",
-              "howto/others", "python", "library", "kernel", "c", "howto/ci", "layers", "surface", "sizes", "pieces", "viewer", "examples"],
+    "howto": ["howto/stl", "howto/gmsh", "howto/paraview", "howto/fenicsx", "howto/calculix", "howto/su2", "howto/openfoam",
+              "howto/dealii", "howto/mfem", "howto/moose", "howto/code_aster", "howto/simvascular", "howto/simnibs", "howto/others", "python", "library", "kernel", "c", "howto/ci", "layers", "surface", "sizes", "pieces", "viewer", "examples"],
     "extending": ["operators", "schedules", "trace", "contributing", "portability"],
     "overview": ["glossary", "deviations"],
     "results": ["experiments", "results/rivals", "results/schedules", "results/ablation", "results/promises",

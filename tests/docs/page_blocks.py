@@ -39,10 +39,10 @@ def commands_of(block: str) -> Iterator[tuple[str, int]]:
 
 
 def write_files(page: Path, folder: Path) -> None:
-    """Those of its blocks that have a name: `python NAME`, `lua NAME`."""
+    """Those of its blocks that have a name: `python NAME`, `lua NAME`, `geo NAME`."""
     for language, content in blocks(page):
         kind, _, name = language.partition(" ")
-        if kind in ("python", "lua") and name:
+        if kind in ("python", "lua", "geo") and name:
             (folder / name).write_text(content)
 
 
