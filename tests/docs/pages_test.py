@@ -21,7 +21,7 @@ import sys
 import tempfile
 from pathlib import Path
 
-from page_blocks import GEOMETRY, blocks, commands_of, not_printed, write_files
+from page_blocks import GEOMETRY, PLATE, blocks, commands_of, not_printed, write_files
 
 SKIPPED = 77
 DEBIAN_PYTHON = "/usr/bin/python3"
@@ -51,12 +51,6 @@ COMMAND = re.compile(r"^(?:\$ )?(?:tetmend(?:-view)? [a-z-]|script/\w|cmake |cte
 # Besides `sh`, and what has no language.
 KNOWN_KIND = re.compile(r"output|c|cpp|fortran|cmake|lua|(python|lua|geo) \w+\.(py|lua|geo)")
 
-PLATE = """SetFactory("OpenCASCADE");
-Box(1) = {0, 0, 0, 4, 4, 1};
-Cylinder(2) = {2, 2, 0, 0, 0, 1, 1};
-BooleanDifference{ Volume{1}; Delete; }{ Volume{2}; Delete; }
-Mesh.MeshSizeMax = 0.4;
-"""
 CONTROL = """FoamFile { version 2.0; format ascii; class dictionary; object controlDict; }
 application none; startFrom startTime; startTime 0; stopAt endTime; endTime 1; deltaT 1;
 writeControl timeStep; writeInterval 1;
@@ -101,6 +95,8 @@ class Workshop:
                                 OMP_NUM_THREADS="1", WM_PROJECT_DIR="/usr/share/openfoam")  # where Debian has it
         self.environment |= {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
                              "OMPI_MCA_rmaps_base_oversubscribe": "1", "OMPI_MCA_btl_vader_single_copy_mechanism": "none"}
+        if (build / "python/tetmend").is_dir():
+            self.environment["PYTHONPATH"] = str(build / "python")
         self.environment.pop("TETMEND_PLUGIN_PATH", None)
         self.makers = {"part.mesh": self.make_mesh, "huge.meshb": self.make_huge, "better.mesh": self.make_better, "part.geo": self.make_geometry,
                        "part.msh": self.make_gmsh, "part.stl": self.make_stl, "job.inp": self.make_deck, "case": self.make_case}
@@ -130,13 +126,13 @@ class Workshop:
             script = self.work / word
             imports = re.findall(r"^(?:import|from) (\w+)", script.read_text(), re.M) if script.suffix == ".py" else []
             for module in imports:
-                if subprocess.run([DEBIAN_PYTHON, "-c", f"import {module}"], capture_output=True).returncode != 0:
+                if subprocess.run([DEBIAN_PYTHON, "-c", f"import {module}"], capture_output=True, env=self.environment).returncode != 0:
                     raise Missing(f"the module {module} of {DEBIAN_PYTHON}")
 
     def prepare(self, command: str) -> None:
         """Makes what the command names and is not there."""
         words = set(re.split(r"[\s/=]", command))
-        for file in [self.work / word for word in words if word.endswith(".geo")]:  # what Gmsh merges
+        for file in [self.work / word for word in words if word.endswith((".geo", ".py"))]:  # what they read
             words |= set(re.findall(r'"([^"]+)"', file.read_text())) if file.is_file() else set()
         for name, make in self.makers.items():
             if name in words and not (self.work / name).exists():
