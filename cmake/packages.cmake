@@ -54,7 +54,8 @@ endif()
 tetmend_package(development libtetmend-dev libdevel "improvement of tetrahedral meshes - development files"
   "libtetmend improves tetrahedral meshes.\n${surface_stays}\n\nThis package has the headers for C++ and C, a module for Fortran, and what\nCMake and pkg-config need to find the library. Operators of one's own need\nEigen as well: libeigen3-dev."
   ${library_itself})
-set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SUGGESTS "libeigen3-dev, tetmend")
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_RECOMMENDS libeigen3-dev)
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SUGGESTS tetmend)
 if(TARGET tetmend)
   tetmend_package(program tetmend science "improvement of tetrahedral meshes - command line"
     "tetmend improves tetrahedral meshes.\n${surface_stays}\nIt reads and writes the files of Gmsh, VTK, MEDIT, TetGen, SU2, Netgen,\nNastran, Abaqus, CalculiX, LS-DYNA, FEBio, MFEM, Elmer, Salome, and universal files.")

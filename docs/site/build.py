@@ -86,6 +86,7 @@ def with_links_of_the_site(text: str, source: Path) -> str:
             return words if not image else found[0]
         return f"{image}[{words}]({os.path.relpath(place, here.parent)}{anchor or ''})"
 
+    text = re.sub(r"^```geo\b.*", "```text", text, flags=re.M)  # Pygments does not know the language of Gmsh
     parts = FENCE.split(text)
     for i in range(0, len(parts), 2):  # between the fenced blocks
         parts[i] = LINK.sub(replaced, COMMENT.sub("", parts[i]))
@@ -242,6 +243,25 @@ def purpose_of(header: Path) -> str:
     return " ".join(line.removeprefix("// ") for line in lead[1].splitlines())
 
 
+# What a program calls, in the order in which it does.
+VERBS = [("read and write a mesh", "load(), save()", "io"), ("make one of arrays", "Mesh", "mesh"), ("measure it", "measure()", "measure"),
+         ("improve it", "improve()", "improve"), ("improve it again and again, in a solver's loop", "Improver", "improve"),
+         ("have edges of wanted lengths", "adapt()", "improve"), ("check it against thresholds or its input", "check(), compare()", "check"),
+         ("read a recorded run", "Trace", "trace")]
+
+
+def verbs() -> str:
+    """@throws Failure where a header does not have the name"""
+    rows = []
+    for what, names, header in VERBS:
+        text = (ROOT / f"include/tetmend/{header}.h").read_text()
+        for name in re.findall(r"\w+", names):
+            if not re.search(rf"\b{name}\b", text):
+                raise Failure(f"docs/site/build.py: {header}.h has no {name}")
+        rows.append(f"| {what} | `{names}` | [`{header}.h`](cpp/{header}.md) |\n")
+    return "| To | Call | Header |\n|---|---|---|\n" + "".join(rows)
+
+
 def write_cpp(pages: Path, xml: Path) -> None:
     """A page for each public header, and one that lists them."""
     rows = []
@@ -256,7 +276,7 @@ def write_cpp(pages: Path, xml: Path) -> None:
     NAVIGATION["cpp"] = [f"cpp/{header.stem}" for header in headers]
     (pages / "cpp.md").write_text(
         "# The C++ reference\n\nAll that the public headers declare, `<tetmend/...>`, in the namespace `tetmend`. "
-        "[The C++ library](library.md) is the place to begin.\n\n| Header | Content |\n|---|---|\n" + "".join(rows))
+        "[The C++ library](library.md) is the place to begin.\n\n" + verbs() + "\n| Header | Content |\n|---|---|\n" + "".join(rows))
 
 
 def run_doxygen(folder: Path, more_settings: str = "") -> None:

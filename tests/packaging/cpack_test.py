@@ -119,6 +119,9 @@ class Packages(unittest.TestCase):
         [module] = folder.rglob("_core*.so")
         self.assertNotRegex(output("readelf", "-d", module), "RPATH|RUNPATH")
 
+    def test_the_headers_of_operators_bring_eigen(self) -> None:
+        self.assertEqual(self.field("libtetmend-dev", "Recommends"), "libeigen3-dev")
+
     def test_each_names_the_address_of_the_project(self) -> None:
         address = (SOURCE / "packaging/address").read_text().strip()
         for package in EXPECTED:
