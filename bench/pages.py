@@ -5,7 +5,10 @@ figures of the tables in docs/results in place.
 A figure is a place in a table: {FILE / ROW / COLUMN}, where ROW is what the row begins with, cell
 by cell. If the tables of a file have a heading each, ROW begins with that heading.
 {rivals / tire / best rival / COLUMN} is the row of the improver, tetmend apart, that leaves the
-fewest bad tets.
+fewest bad tets. {FILE / ROW / COLUMN, alone} is the cell without what it has in brackets.
+
+bench/pages/parts has pieces that stand in several documents, each between <!-- NAME --> and
+<!-- /NAME -->; their links are those of docs/.
 """
 
 import argparse
@@ -18,6 +21,7 @@ import documents
 
 TEMPLATES = documents.ROOT / "bench" / "pages"
 DOCS = documents.ROOT / "docs"
+WITH_PARTS = [documents.ROOT / "README.md", DOCS / "index.md"]
 BEST_RIVAL = "best rival"
 
 
@@ -47,6 +51,7 @@ def named(keys: list[str], text: str) -> list[str]:
 def figure(place: str, results: Path) -> str:
     """The cell at a place."""
     file, *keys, column = place.split(" / ")
+    column, is_alone = column.removesuffix(", alone"), column.endswith(", alone")
     text = (results / f"{file}.md").read_text()
     keys = named(keys, text)
     tables = [(heading, table) for heading, table in documents.tables(text) if column in table[0]]
@@ -56,7 +61,7 @@ def figure(place: str, results: Path) -> str:
                       for row in table[1:] if row[:len(keys)] == keys]
     if len(set(cells)) != 1:
         sys.exit(f"pages: {{{place}}} means {len(cells)} cells of {file}.md, not one")
-    return cells[0]
+    return cells[0].partition(" (")[0] if is_alone else cells[0]
 
 
 def filled(block: str) -> str:
@@ -78,6 +83,21 @@ def page(template: str, results: Path) -> str:
     return "\n\n".join(filled(block) for block in text.rstrip("\n").split("\n\n")) + "\n"
 
 
+def with_parts(document: Path, results: Path) -> str:
+    """The document with each part that it has marks for."""
+    text = document.read_text()
+    for template in sorted((TEMPLATES / "parts").glob("*.md")):
+        first, last = f"<!-- {template.stem} -->\n", f"<!-- /{template.stem} -->\n"
+        if first not in text:
+            continue
+        part = page(template.read_text(), results)
+        if document.parent != DOCS:
+            part = re.sub(r"\]\((?![a-z]+:)", "](docs/", part)
+        before, _, rest = text.partition(first)
+        text = before + first + part + last + rest.partition(last)[2]
+    return text
+
+
 def main() -> None:
     parser = argparse.ArgumentParser(prog="script/pages", description=__doc__,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
@@ -85,8 +105,10 @@ def main() -> None:
                         help="write nothing; status 1 if a page is not what this would write")
     check = parser.parse_args().check
     stale = []
-    for template in sorted(TEMPLATES.glob("*.md")):
-        text, target = page(template.read_text(), DOCS / "results"), DOCS / template.name
+    written = {DOCS / template.name: page(template.read_text(), DOCS / "results")
+               for template in sorted(TEMPLATES.glob("*.md"))}
+    written |= {document: with_parts(document, DOCS / "results") for document in WITH_PARTS}
+    for target, text in written.items():
         if text != (target.read_text() if target.exists() else ""):
             stale.append(target.name)
             if not check:

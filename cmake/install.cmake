@@ -31,9 +31,17 @@ write_basic_package_version_file(${PROJECT_BINARY_DIR}/tetmendConfigVersion.cmak
 install(FILES ${PROJECT_BINARY_DIR}/tetmendConfig.cmake ${PROJECT_BINARY_DIR}/tetmendConfigVersion.cmake
   DESTINATION ${package_dir})
 
+file(STRINGS ${PROJECT_SOURCE_DIR}/packaging/address tetmend_address)  # cmake/packages.cmake has it as well
+
 # The folders are seen from that of the file itself, so that all may be moved together.
 file(RELATIVE_PATH tetmend_way_up ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig ${CMAKE_INSTALL_PREFIX})
 string(REGEX REPLACE "/$" "" tetmend_way_up "${tetmend_way_up}")
+# What Debian's packages have is not moved, and pkg-config leaves out -I/usr/include only where it is written so: as a
+# folder of the system (-isystem), it would come before that of the C++ library.
+set(tetmend_prefix "\${pcfiledir}/${tetmend_way_up}")
+if(CMAKE_INSTALL_PREFIX STREQUAL /usr)
+  set(tetmend_prefix /usr)
+endif()
 list(TRANSFORM tetmend_static_libraries PREPEND "-l" OUTPUT_VARIABLE tetmend_private_libraries)
 list(JOIN tetmend_private_libraries " " tetmend_private_libraries)
 configure_file(${PROJECT_SOURCE_DIR}/cmake/tetmend.pc.in ${PROJECT_BINARY_DIR}/tetmend.pc @ONLY)

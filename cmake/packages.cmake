@@ -1,4 +1,4 @@
-# Debian packages, by cpack: tetmend, tetmend-viewer, libtetmend0, libtetmend-dev, python3-tetmend. script/package makes them
+# Debian packages, by cpack: tetmend, tetmend-viewer, tetmend-mpi, libtetmend0, libtetmend-dev, python3-tetmend. script/package makes them
 # of a build of its own, whose folders are Debian's. What else a package of Debian has, packaging/debian/ adds.
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME tetmend)
@@ -22,6 +22,7 @@ endif()
 set(TETMEND_PACKAGE_MAINTAINER ${maintainer} CACHE STRING "Maintainer of the Debian packages: NAME <ADDRESS>")
 set(CPACK_DEBIAN_PACKAGE_MAINTAINER ${TETMEND_PACKAGE_MAINTAINER})
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "")  # each package has its own
+set(CPACK_DEBIAN_PACKAGE_HOMEPAGE ${tetmend_address})
 set(CPACK_DEBIAN_PACKAGE_SOURCE tetmend)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_PRIORITY optional)
@@ -53,7 +54,8 @@ endif()
 tetmend_package(development libtetmend-dev libdevel "improvement of tetrahedral meshes - development files"
   "libtetmend improves tetrahedral meshes.\n${surface_stays}\n\nThis package has the headers for C++ and C, a module for Fortran, and what\nCMake and pkg-config need to find the library. Operators of one's own need\nEigen as well: libeigen3-dev."
   ${library_itself})
-set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SUGGESTS "libeigen3-dev, tetmend")
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_RECOMMENDS libeigen3-dev)
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SUGGESTS tetmend)
 if(TARGET tetmend)
   tetmend_package(program tetmend science "improvement of tetrahedral meshes - command line"
     "tetmend improves tetrahedral meshes.\n${surface_stays}\nIt reads and writes the files of Gmsh, VTK, MEDIT, TetGen, SU2, Netgen,\nNastran, Abaqus, CalculiX, LS-DYNA, FEBio, MFEM, Elmer, Salome, and universal files.")
@@ -65,6 +67,11 @@ if(TARGET tetmend-view)
     "tetmend-view shows where a tetrahedral mesh is bad, improves it as you watch,\nand steps through recorded runs call by call. It draws pictures without a\ndisplay, too."
     libgl1 libegl1 libopengl0 libgl1-mesa-dri libxcursor1 libxi6 libxinerama1 libxrandr2 libxrender1 libx11-xcb1
     libxxf86vm1 fonts-dejavu-core "tetmend (= ${version})")  # which has the lessons
+endif()
+if(TARGET tetmend-mpi)
+  tetmend_package(mpi tetmend-mpi science "improvement of tetrahedral meshes - by many processes"
+    "tetmend-mpi improves tetrahedral meshes in pieces, by many processes of Open\nMPI on one machine or several.\n${surface_stays}"
+    openmpi-bin "tetmend (= ${version})")  # whose page describes the options
 endif()
 if(TARGET tetmend_python AND BUILD_SHARED_LIBS)
   get_target_property(python tetmend_python TETMEND_PYTHON_VERSION)

@@ -3,6 +3,8 @@
 themselves, and has Sphinx write HTML. Called by script/site."""
 
 import argparse
+import html
+import json
 import os
 import re
 import shutil
@@ -25,8 +27,8 @@ ROOT = HERE.parent.parent
 NAVIGATION: dict[str, list[str]] = {
     "index": ["start", "install", "howto", "choosing", "report", "troubleshooting", "extending",
               "overview", "reliability", "results", "reference"],
-    "howto": ["howto/gmsh", "howto/paraview", "howto/fenicsx", "howto/calculix", "howto/su2", "howto/openfoam",
-              "howto/others", "python", "library", "kernel", "c", "howto/ci", "layers", "surface", "sizes", "pieces", "viewer", "examples"],
+    "howto": ["howto/stl", "howto/gmsh", "howto/paraview", "howto/fenicsx", "howto/calculix", "howto/su2", "howto/openfoam",
+              "howto/dealii", "howto/mfem", "howto/moose", "howto/code_aster", "howto/simvascular", "howto/simnibs", "howto/others", "python", "library", "kernel", "c", "howto/ci", "layers", "surface", "sizes", "pieces", "viewer", "examples"],
     "extending": ["operators", "schedules", "trace", "contributing", "portability"],
     "overview": ["glossary", "deviations"],
     "results": ["experiments", "results/rivals", "results/schedules", "results/ablation", "results/promises",
@@ -52,7 +54,7 @@ COMMANDS = ["improve", "adapt", "pieces", "quality", "check", "convert", "surfac
 
 FENCE = re.compile(r"^(```.*?^```[^\n]*$)", re.M | re.S)
 LINK = re.compile(r"(!?)\[((?:[^\[\]]|\[[^\]]*\])*)\]\(([^()\s#]*)(#[^()\s]*)?\)")
-COMMENT = re.compile(r"<!--.*?-->\n*", re.S)
+COMMENT = re.compile(r"<!--.*?-->\n?", re.S)  # the empty line below stays: it ends a table
 
 
 def place_of(target: Path) -> Path | None:
@@ -84,6 +86,7 @@ def with_links_of_the_site(text: str, source: Path) -> str:
             return words if not image else found[0]
         return f"{image}[{words}]({os.path.relpath(place, here.parent)}{anchor or ''})"
 
+    text = re.sub(r"^```geo\b.*", "```text", text, flags=re.M)  # Pygments does not know the language of Gmsh
     parts = FENCE.split(text)
     for i in range(0, len(parts), 2):  # between the fenced blocks
         parts[i] = LINK.sub(replaced, COMMENT.sub("", parts[i]))
@@ -240,6 +243,25 @@ def purpose_of(header: Path) -> str:
     return " ".join(line.removeprefix("// ") for line in lead[1].splitlines())
 
 
+# What a program calls, in the order in which it does.
+VERBS = [("read and write a mesh", "load(), save()", "io"), ("make one of arrays", "Mesh", "mesh"), ("measure it", "measure()", "measure"),
+         ("improve it", "improve()", "improve"), ("improve it again and again, in a solver's loop", "Improver", "improve"),
+         ("have edges of wanted lengths", "adapt()", "improve"), ("check it against thresholds or its input", "check(), compare()", "check"),
+         ("read a recorded run", "Trace", "trace")]
+
+
+def verbs() -> str:
+    """@throws Failure where a header does not have the name"""
+    rows = []
+    for what, names, header in VERBS:
+        text = (ROOT / f"include/tetmend/{header}.h").read_text()
+        for name in re.findall(r"\w+", names):
+            if not re.search(rf"\b{name}\b", text):
+                raise Failure(f"docs/site/build.py: {header}.h has no {name}")
+        rows.append(f"| {what} | `{names}` | [`{header}.h`](cpp/{header}.md) |\n")
+    return "| To | Call | Header |\n|---|---|---|\n" + "".join(rows)
+
+
 def write_cpp(pages: Path, xml: Path) -> None:
     """A page for each public header, and one that lists them."""
     rows = []
@@ -254,7 +276,7 @@ def write_cpp(pages: Path, xml: Path) -> None:
     NAVIGATION["cpp"] = [f"cpp/{header.stem}" for header in headers]
     (pages / "cpp.md").write_text(
         "# The C++ reference\n\nAll that the public headers declare, `<tetmend/...>`, in the namespace `tetmend`. "
-        "[The C++ library](library.md) is the place to begin.\n\n| Header | Content |\n|---|---|\n" + "".join(rows))
+        "[The C++ library](library.md) is the place to begin.\n\n" + verbs() + "\n| Header | Content |\n|---|---|\n" + "".join(rows))
 
 
 def run_doxygen(folder: Path, more_settings: str = "") -> None:
@@ -310,6 +332,25 @@ def complete_theme(static: Path) -> None:
         script.write_text((static / "scripts" / "gumshoe-patched.js").read_text() + text.replace(wanted, ""))
 
 
+def text_of(page: Path) -> str:
+    """The words of its article."""
+    [article] = re.findall(r'<article role="main">(.*?)</article>', page.read_text(), re.S)
+    article = re.sub(r'<a class="headerlink".*?</a>|<(script|style).*?</\1>', "", article, flags=re.S)
+    return " ".join(html.unescape(re.sub(r"<[^>]*>", " ", article)).split())
+
+
+def add_texts(site: Path) -> None:
+    """A browser lets no page that was opened as a file read others, so that of the search has their words beside it."""
+    texts = {page.relative_to(site).as_posix(): text_of(page) for page in sorted(site.rglob("*.html")) if page.name != "search.html"}
+    (site / "_static" / "texts.js").write_text(f"const TETMEND_TEXTS = {json.dumps(texts, ensure_ascii=False)};\n")
+    search = site / "search.html"
+    wanted = '<script src="_static/search.js"></script>'
+    text = search.read_text()
+    if wanted not in text:
+        raise Failure("search.html does not load search.js: the search would show titles alone")
+    search.write_text(text.replace(wanted, f'<script src="_static/texts.js"></script>\n    {wanted}'))
+
+
 def build(output: Path, program: Path) -> int:
     """The number of pages. `output` is replaced when all of them are there."""
     if not os.access(program, os.X_OK):
@@ -331,6 +372,7 @@ def build(output: Path, program: Path) -> int:
         add_navigation(pages)
         run_sphinx(pages, work / "html", work)
         complete_theme(work / "html" / "_static")
+        add_texts(work / "html")
         shutil.copytree(ROOT / WHOLE, work / "html" / WHOLE.name)
         for unused in ["objects.inv", ".buildinfo"]:
             (work / "html" / unused).unlink(missing_ok=True)

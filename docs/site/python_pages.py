@@ -19,16 +19,16 @@ PACKAGE = ROOT / "bindings" / "python" / "tetmend"
 
 # Where each name that the package offers stands.
 SECTIONS = {
-    "Improving": ["improve", "adapt", "Options", "Result", "Statistics", "Pass", "Progress"],
+    "Improving": ["improve", "adapt", "from_surface", "Options", "Result", "Statistics", "Pass", "Progress"],
     "Meshes and files": ["Mesh", "Group", "load", "save", "formats"],
     "Figures and checks": ["quality", "Quality", "BadTet", "check", "Check", "Fact"],
     "Walks, edits, operators one by one": ["TetMesh", "Edit", "Call", "Ring", "Look", "PassDone"],
     "Recorded runs": ["Trace", "TracePage"],
     "Schedules and operators": ["schedules", "Schedule", "operators", "Operator", "Parameter"],
-    "Errors": ["Error", "OptionError"],
+    "Errors": ["Error", "OptionError", "MissingFile"],
 }
 # Modules for other programs, and what they offer.
-BRIDGES = {"gmsh": "improve", "meshio": "improve", "vtk": "improve", "pyvista": "Accessor"}
+BRIDGES = {"gmsh": "improve", "meshio": "improve", "vtk": "improve", "pyvista": "Accessor", "dolfinx": "improve"}
 MADE_BY_USERS = ("Mesh", "Group", "TetMesh", "Trace")  # the others come from functions
 
 # --- the page

@@ -5,7 +5,7 @@
 # Not run: a build with them, script/recipes --build; brew.
 class Tetmend < Formula
   desc "Improves tetrahedral meshes and keeps their surface"
-  homepage "https://doi.org/10.1007/s00366-016-0480-z"
+  homepage "https://tetmend.invalid"
   license "MIT"
   head "file://#{File.expand_path("../..", __dir__)}", using: :git, branch: "main"
 

@@ -11,7 +11,7 @@ from spack.package import *
 class Tetmend(CMakePackage):
     """Improves tetrahedral meshes and keeps their surface: command line, C++ library, Python package."""
 
-    homepage = "https://doi.org/10.1007/s00366-016-0480-z"
+    homepage = "https://tetmend.invalid"
     license("MIT")
 
     version("main", branch="main")

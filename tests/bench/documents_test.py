@@ -324,6 +324,11 @@ class Pages(unittest.TestCase):
         self.assertEqual(pages.page(template, self.results),
                          "Other, 80, 3 inverted or flat; 12.35\n")
 
+    def test_a_figure_alone_is_without_its_brackets(self) -> None:
+        (self.results / "felt.md").write_text("## all\n\n| improver | step |\n|---|---|\n| Some | 2.38 (1) |\n")
+        template = "{felt / all / Some / step}, {felt / all / Some / step, alone}"
+        self.assertEqual(pages.page(template, self.results), "2.38 (1), 2.38\n")
+
     def test_a_place_that_means_no_cell_or_several_is_an_error(self) -> None:
         for place in ["rivals / cube / Nobody / bad", "rivals / cube / bad"]:
             with self.assertRaises(SystemExit) as refused:
@@ -350,6 +355,12 @@ class Published(unittest.TestCase):
         for template in (SOURCE / "bench" / "pages").glob("*.md"):
             written = pages.page(template.read_text(), SOURCE / "docs" / "results")
             self.assertEqual((SOURCE / "docs" / template.name).read_text(), written,
+                             "script/pages writes it anew")
+        for document in pages.WITH_PARTS:
+            text = document.read_text()
+            for part in (SOURCE / "bench" / "pages" / "parts").glob("*.md"):
+                self.assertIn(f"<!-- {part.stem} -->", text, document.name)
+            self.assertEqual(text, pages.with_parts(document, SOURCE / "docs" / "results"),
                              "script/pages writes it anew")
 
     def test_tables_that_tell_of_the_same_run_agree(self) -> None:

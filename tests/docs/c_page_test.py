@@ -20,9 +20,9 @@ SOURCE, PREFIX = (Path(word).resolve() for word in sys.argv[1:3])
 
 def main() -> int:
     page = blocks(SOURCE / "docs/c.md")
-    programs = {file: [text for kind, text in page if kind == language] for file, language in (("part.c", "c"), ("part.f90", "fortran"))}
+    programs = {file: [text for kind, text in page if kind == language] for file, language in (("part.c", "c"), ("older.cpp", "cpp"), ("part.f90", "fortran"))}
     commands = [command for kind, text in page if kind == "sh" for command, _ in commands_of(text)]
-    if len(commands) != 4 or any(len(found) != 1 for found in programs.values()):
+    if len(commands) != 6 or any(len(found) != 1 for found in programs.values()):
         print("docs/c.md has other programs and commands")
         return 1
     [library] = [file.parent for file in PREFIX.rglob("libtetmend.so")]

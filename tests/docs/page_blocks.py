@@ -22,6 +22,13 @@ Physical Surface("wall", 4) = walls();
 Mesh.MeshSizeMax = 0.25;
 Mesh.Optimize = 0;
 """
+# The surface of part.stl, likewise: a plate with a hole.
+PLATE = """SetFactory("OpenCASCADE");
+Box(1) = {0, 0, 0, 4, 4, 1};
+Cylinder(2) = {2, 2, 0, 0, 0, 1, 1};
+BooleanDifference{ Volume{1}; Delete; }{ Volume{2}; Delete; }
+Mesh.MeshSizeMax = 0.4;
+"""
 
 
 def blocks(page: Path) -> list[tuple[str, str]]:
@@ -39,10 +46,10 @@ def commands_of(block: str) -> Iterator[tuple[str, int]]:
 
 
 def write_files(page: Path, folder: Path) -> None:
-    """Those of its blocks that have a name: `python NAME`, `lua NAME`."""
+    """Those of its blocks that have a name: `python NAME`, `lua NAME`, `geo NAME`."""
     for language, content in blocks(page):
         kind, _, name = language.partition(" ")
-        if kind in ("python", "lua") and name:
+        if kind in ("python", "lua", "geo") and name:
             (folder / name).write_text(content)
 
 

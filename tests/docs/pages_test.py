@@ -5,7 +5,7 @@
     pages_test.py SOURCE --all          that all pages have their commands where the first form finds them
 
 Commands stand in blocks of the language `sh`. A block `output` below has lines that the last of them printed; blanks
-do not count. A block `python NAME` or `lua NAME` is a file that a command uses. A command ends with status 0, unless
+do not count. A block `python NAME`, `lua NAME` or `geo NAME` is a file that a command uses. A command ends with status 0, unless
 its comment has the words "status N". One whose program is not installed is named and passed over. Scripts for those who
 work on tetmend, and builds of all of it, are not run but looked up: script, options and presets exist. Exit status 77:
 no command could be run.
@@ -21,7 +21,7 @@ import sys
 import tempfile
 from pathlib import Path
 
-from page_blocks import GEOMETRY, blocks, commands_of, not_printed, write_files
+from page_blocks import GEOMETRY, PLATE, blocks, commands_of, not_printed, write_files
 
 SKIPPED = 77
 DEBIAN_PYTHON = "/usr/bin/python3"
@@ -49,7 +49,7 @@ ELSEWHERE = {
 # A line that begins so is a command, and belongs into a block `sh`.
 COMMAND = re.compile(r"^(?:\$ )?(?:tetmend(?:-view)? [a-z-]|script/\w|cmake |ctest |build/\w|gmsh |ccx |python3 )")
 # Besides `sh`, and what has no language.
-KNOWN_KIND = re.compile(r"output|c|cpp|fortran|cmake|lua|(python|lua) \w+\.(py|lua)")
+KNOWN_KIND = re.compile(r"output|c|cpp|fortran|cmake|lua|(python|lua|geo) \w+\.(py|lua|geo)")
 
 CONTROL = """FoamFile { version 2.0; format ascii; class dictionary; object controlDict; }
 application none; startFrom startTime; startTime 0; stopAt endTime; endTime 1; deltaT 1;
@@ -95,9 +95,11 @@ class Workshop:
                                 OMP_NUM_THREADS="1", WM_PROJECT_DIR="/usr/share/openfoam")  # where Debian has it
         self.environment |= {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
                              "OMPI_MCA_rmaps_base_oversubscribe": "1", "OMPI_MCA_btl_vader_single_copy_mechanism": "none"}
+        if (build / "python/tetmend").is_dir():
+            self.environment["PYTHONPATH"] = str(build / "python")
         self.environment.pop("TETMEND_PLUGIN_PATH", None)
         self.makers = {"part.mesh": self.make_mesh, "huge.meshb": self.make_huge, "better.mesh": self.make_better, "part.geo": self.make_geometry,
-                       "part.msh": self.make_gmsh, "job.inp": self.make_deck, "case": self.make_case}
+                       "part.msh": self.make_gmsh, "part.stl": self.make_stl, "job.inp": self.make_deck, "case": self.make_case}
 
     def run(self, command: str) -> subprocess.CompletedProcess:
         return subprocess.run(["bash", "-euo", "pipefail", "-c", command], cwd=self.work, env=self.environment,
@@ -124,12 +126,14 @@ class Workshop:
             script = self.work / word
             imports = re.findall(r"^(?:import|from) (\w+)", script.read_text(), re.M) if script.suffix == ".py" else []
             for module in imports:
-                if subprocess.run([DEBIAN_PYTHON, "-c", f"import {module}"], capture_output=True).returncode != 0:
+                if subprocess.run([DEBIAN_PYTHON, "-c", f"import {module}"], capture_output=True, env=self.environment).returncode != 0:
                     raise Missing(f"the module {module} of {DEBIAN_PYTHON}")
 
     def prepare(self, command: str) -> None:
         """Makes what the command names and is not there."""
         words = set(re.split(r"[\s/=]", command))
+        for file in [self.work / word for word in words if word.endswith((".geo", ".py"))]:  # what they read
+            words |= set(re.findall(r'"([^"]+)"', file.read_text())) if file.is_file() else set()
         for name, make in self.makers.items():
             if name in words and not (self.work / name).exists():
                 make()
@@ -150,6 +154,11 @@ class Workshop:
     def make_gmsh(self) -> None:
         self.prepare("part.geo")
         self.must("gmsh -3 part.geo -format msh41 -o part.msh")
+
+    def make_stl(self) -> None:
+        """A plate with a hole."""
+        (self.work / "plate.geo").write_text(PLATE)
+        self.must("gmsh -2 plate.geo -format stl -o part.stl")
 
     def make_deck(self) -> None:
         """The mesh of Gmsh with what a solver wants."""

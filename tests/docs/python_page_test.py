@@ -9,12 +9,13 @@ Exit status 77: a module that the page imports is not installed.
 
 import os
 import re
+import shutil
 import subprocess
 import sys
 import tempfile
 from pathlib import Path
 
-from page_blocks import GEOMETRY, blocks, commands_of, not_printed, write_files
+from page_blocks import GEOMETRY, PLATE, blocks, commands_of, not_printed, write_files
 
 SOURCE, BUILD, PYTHON = (Path(word).absolute() for word in sys.argv[1:4])
 # What a test with a build of its own does.
@@ -29,6 +30,9 @@ def main() -> int:
         if subprocess.run([PYTHON, "-c", f"import {module}"], capture_output=True).returncode != 0:
             print(f"skipped: {module} is not installed for {PYTHON}")
             return 77
+    if shutil.which("gmsh") is None:
+        print("skipped: gmsh is not installed")
+        return 77
     assert TEST in (SOURCE / "tests/CMakeLists.txt").read_text()
     elsewhere, ran, wrong, printed = set(), 0, 0, ""
     with tempfile.TemporaryDirectory() as name:
@@ -36,6 +40,8 @@ def main() -> int:
         (work / "part.geo").write_text(GEOMETRY)
         subprocess.run([BUILD / "bin/tetmend", "convert", SOURCE / "assets/meshes/bracket.meshb", work / "part.mesh"], check=True,
                        capture_output=True)
+        (work / "plate.geo").write_text(PLATE)
+        subprocess.run(["gmsh", "-2", "plate.geo", "-format", "stl", "-o", "part.stl"], cwd=work, check=True, capture_output=True)
         write_files(page, work)
         for kind, text in blocks(page):
             if kind == "sh":

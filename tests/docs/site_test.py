@@ -71,7 +71,7 @@ class Page(HTMLParser):
         self.is_hidden = tag in ("script", "style", "title")
 
     def handle_endtag(self, tag: str) -> None:
-        if self.depth_of_article:
+        if self.depth_of_article and tag not in EMPTY_ELEMENTS:  # <img/> is told as a beginning and an end
             self.depth_of_article -= 1
         self.is_hidden = False
 
@@ -340,6 +340,25 @@ class Shown(unittest.TestCase):
             self.assertGreater(min(references, default=9), 2, f"{word}: {found[:8]}")
         for name, page in {"tetmend_set_group": "c-reference", "Result.vertex_map": "python-reference"}.items():
             self.assertIn(f"/{page}.html", self.results(window, f"file://{SITE}", name)[0])
+
+    def test_a_search_of_a_site_that_was_opened_as_a_file_shows_where_the_word_stands(self) -> None:
+        window = self.open_window(DESK)
+        for word, name in self.rare_words()[:4]:
+            self.results(window, f"file://{SITE}", word)
+            text = window.wait_for("return document.querySelector('#search-results .context')?.innerText")
+            self.assertIn(word, (text or "").lower(), name)
+            self.assertEqual(window.complaints(), [])
+
+    def test_the_first_page_has_a_command_a_number_and_a_picture_above_the_fold(self) -> None:
+        for size in ((1280, 800), PHONE):
+            for dark in (False, True):
+                window = self.open_window(size, dark)
+                self.looked_at(window, f"file://{SITE}/index.html")
+                for what, words in {"article pre": "tetmend improve", "article th": "4,556", "article img": ""}.items():
+                    text, bottom, fold = window.run("const box = document.querySelector(arguments[0]); "
+                                                    "return [box.innerText, box.getBoundingClientRect().bottom, innerHeight]", what)
+                    self.assertIn(words, text or "")
+                    self.assertLessEqual(bottom, fold, f"{what} at {size}")
 
     def test_from_a_server_a_search_shows_where_the_word_stands(self) -> None:
         word, name = self.rare_words()[0]

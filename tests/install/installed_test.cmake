@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 # Installs tetmend into a folder of its own, and builds against it, with find_package alone, what a stranger would: the
-# plugin of plugins/ and the programs of docs/library.md and docs/kernel.md. Then runs them. The programs are built for this very processor,
+# plugin of plugins/, the programs of docs/library.md and docs/kernel.md, and one in C++17. Then runs them. The programs are built for this very processor,
 # and write the same bytes as the command line. So does one that is built by pkg-config alone, after all that was installed
 # has moved.
 #   cmake -DBUILD=... -DSOURCE=... -DWORK=... -DCOMPILER=... -DGENERATOR=... -DLAUNCHER=... -DFLAGS=... -P installed_test.cmake
@@ -36,25 +36,27 @@ file(REMOVE_RECURSE ${WORK})
 run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${WORK}/prefix)
 
 # Where it is compiled for an older standard, one sentence says so; the header for C takes any.
-file(WRITE ${WORK}/old.cpp "#include <tetmend/improve.h>\n")
-execute_process(COMMAND ${COMPILER} -std=c++17 -fsyntax-only -I${WORK}/prefix/include ${WORK}/old.cpp
-                RESULT_VARIABLE status ERROR_VARIABLE output)
-if(status EQUAL 0)
-  message(FATAL_ERROR "tetmend's headers compile as C++17")
-endif()
-expect("The C++ headers of tetmend need C++20")
+foreach(header IN ITEMS catalogue check distributed improve io limit measure mesh option_text statistics trace)
+  file(WRITE ${WORK}/old.cpp "#include <tetmend/${header}.h>\n")
+  execute_process(COMMAND ${COMPILER} -std=c++17 -fsyntax-only -I${WORK}/prefix/include ${WORK}/old.cpp
+                  RESULT_VARIABLE status ERROR_VARIABLE output)
+  if(status EQUAL 0)
+    message(FATAL_ERROR "<tetmend/${header}.h> compiles as C++17")
+  endif()
+  expect("The C++ headers of tetmend need C++20")
+endforeach()
 file(WRITE ${WORK}/old.cpp "#include <tetmend/tetmend.h>\nint main() { return 0; }\n")
 run(${COMPILER} -std=c++11 -fsyntax-only -I${WORK}/prefix/include ${WORK}/old.cpp)
 
 # What users see of it is one folder. Programs need nothing but the standard library, plugins and those of the kernel Eigen as well.
-file(GLOB_RECURSE headers ${WORK}/prefix/include/*.h)
+file(GLOB_RECURSE headers ${WORK}/prefix/include/*.h ${WORK}/prefix/include/*.hpp)
 file(GLOB packages ${WORK}/prefix/lib*/cmake/tetmend ${WORK}/prefix/lib/*/cmake/tetmend)
 list(LENGTH headers count)
-if(count EQUAL 0 OR count GREATER 26)
+if(count EQUAL 0 OR count GREATER 27)
   message(FATAL_ERROR "${count} headers are installed: ${headers}")
 endif()
 foreach(file IN LISTS headers)
-  if(NOT file MATCHES "/include/tetmend/[a-z_]+\\.h$")
+  if(NOT file MATCHES "/include/tetmend/[a-z_]+\\.h(pp)?$")
     message(FATAL_ERROR "${file} is not in the one folder")
   endif()
   set(eigen "")
@@ -129,11 +131,20 @@ expect("odt_smoothing")
 run(${program} check-plugin ${plugin} --mesh ${SOURCE}/assets/meshes/sheet.mesh)
 expect("odt_smoothing keeps its contract")
 
+# A program in C++17, over the interface for C.
+get_filename_component(library_folder ${library} DIRECTORY)
+file(COPY_FILE ${SOURCE}/assets/meshes/sheet.mesh ${WORK}/part.mesh)
+separate_arguments(flags UNIX_COMMAND "${FLAGS}")
+run(${COMPILER} -std=c++17 -Wall -Wextra -Wpedantic -Wshadow -Werror ${flags} -I${WORK}/prefix/include ${SOURCE}/tests/install/older.cpp
+    -L${library_folder} -ltetmend -Wl,-rpath,${library_folder} -o ${WORK}/older)
+run(${CMAKE_COMMAND} -E chdir ${WORK} ${WORK}/older)
+
 build(${SOURCE}/tests/install/library_user ${WORK}/programs -march=native -O3 -Wall -Wextra -Werror -fvisibility=hidden)
 file(COPY_FILE ${SOURCE}/assets/meshes/sheet.mesh ${WORK}/part.mesh)
 run(${CMAKE_COMMAND} -E chdir ${WORK} ${WORK}/programs/my_program)
 run(${program} improve ${WORK}/part.mesh -o ${WORK}/expected.mesh --schedule thorough --time-limit 60 --quiet)
 run(${CMAKE_COMMAND} -E compare_files ${WORK}/better.mesh ${WORK}/expected.mesh)
+run(${CMAKE_COMMAND} -E compare_files ${WORK}/older.mesh ${WORK}/expected.mesh)
 run(${CMAKE_COMMAND} -E chdir ${WORK} ${WORK}/programs/embedded ${plugin})
 expect("odt_smoothing: ")
 

@@ -33,6 +33,7 @@ def is_on(option: str) -> bool:
 EXPECTED = {"tetmend", "libtetmend0", "libtetmend-dev"}
 EXPECTED |= {"tetmend-viewer"} if is_on("TETMEND_BUILD_VIEWER") else set()
 EXPECTED |= {"python3-tetmend"} if is_on("TETMEND_BUILD_PYTHON") else set()
+EXPECTED |= {"tetmend-mpi"} if (BUILD / "bin/tetmend-mpi").exists() else set()
 
 
 class Packages(unittest.TestCase):
@@ -77,6 +78,7 @@ class Packages(unittest.TestCase):
             "tetmend-viewer": ["/usr/bin/tetmend-view", "/usr/share/man/man1/tetmend-view.1.gz",
                                "/usr/share/applications/tetmend-view.desktop", "/usr/share/mime/packages/tetmend.xml",
                                "/usr/share/icons/hicolor/scalable/apps/tetmend-view.svg"],
+            "tetmend-mpi": ["/usr/bin/tetmend-mpi", "/usr/share/man/man1/tetmend-mpi.1.gz"],
             "libtetmend0": ["/libtetmend.so.0", "/libtetmend.so.0.1.0"],
             "libtetmend-dev": ["/libtetmend.so", "/usr/include/tetmend/improve.h", "/usr/include/tetmend/plugin.h",
                                "/cmake/tetmend/tetmendConfig.cmake", "/pkgconfig/tetmend.pc"],
@@ -116,6 +118,14 @@ class Packages(unittest.TestCase):
         output("dpkg-deb", "-x", self.files["python3-tetmend"], folder)
         [module] = folder.rglob("_core*.so")
         self.assertNotRegex(output("readelf", "-d", module), "RPATH|RUNPATH")
+
+    def test_the_headers_of_operators_bring_eigen(self) -> None:
+        self.assertEqual(self.field("libtetmend-dev", "Recommends"), "libeigen3-dev")
+
+    def test_each_names_the_address_of_the_project(self) -> None:
+        address = (SOURCE / "packaging/address").read_text().strip()
+        for package in EXPECTED:
+            self.assertEqual(self.field(package, "Homepage"), address)
 
     def test_apt_shows_what_each_is(self) -> None:
         for package in EXPECTED:

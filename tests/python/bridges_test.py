@@ -517,12 +517,83 @@ class StubGrid:
                 for kind in np.unique(self.celltypes)}
 
 
-def test_pyvista_grids_have_an_accessor(monkeypatch):
-    stub = types.ModuleType("pyvista")
-    stub.UnstructuredGrid = type("UnstructuredGrid", (StubGrid,), {})
-    monkeypatch.setitem(sys.modules, "pyvista", stub)
+def vtk_grid_class():
+    """As PyVista's class: VTK's own grid with arrays in and out. It takes no new attributes."""
+    vtk = pytest.importorskip("vtkmodules.all")
+    from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray, vtk_to_numpy
+
+    class Attributes:
+        def __init__(self, attributes):
+            self.attributes = attributes
+
+        def keys(self):
+            return [self.attributes.GetAbstractArray(i).GetName() for i in range(self.attributes.GetNumberOfArrays())]
+
+        def __getitem__(self, name):
+            array = self.attributes.GetAbstractArray(name)
+            return [array.GetValue(i) for i in range(array.GetNumberOfValues())] if array.IsA("vtkStringArray") else vtk_to_numpy(array)
+
+        def __setitem__(self, name, values):
+            if isinstance(values, list):
+                array = vtk.vtkStringArray()
+                for value in values:
+                    array.InsertNextValue(value)
+            else:
+                array = numpy_to_vtk(np.ascontiguousarray(values), deep=True)
+            array.SetName(name)
+            self.attributes.AddArray(array)
+
+    class Grid(vtk.vtkUnstructuredGrid):
+        def __init__(self, cells, celltypes, points):
+            super().__init__()
+            nodes, made = vtk.vtkPoints(), vtk.vtkCellArray()
+            nodes.SetData(numpy_to_vtk(np.ascontiguousarray(points, float), deep=True))
+            made.ImportLegacyFormat(numpy_to_vtkIdTypeArray(np.ascontiguousarray(cells, np.int64), deep=True))
+            self.SetPoints(nodes)
+            self.SetCells(numpy_to_vtk(np.asarray(celltypes, np.uint8), deep=True), made)
+
+        def __setattr__(self, name, value):
+            raise AttributeError(f"a grid of PyVista takes no new attribute {name}")
+
+        points = property(lambda self: vtk_to_numpy(self.GetPoints().GetData()))
+        cell_connectivity = property(lambda self: vtk_to_numpy(self.GetCells().GetConnectivityArray()))
+        offset = property(lambda self: vtk_to_numpy(self.GetCells().GetOffsetsArray()))
+        celltypes = property(lambda self: vtk_to_numpy(self.GetCellTypesArray()))
+        point_data = property(lambda self: Attributes(self.GetPointData()))
+        cell_data = property(lambda self: Attributes(self.GetCellData()))
+        field_data = property(lambda self: Attributes(self.GetFieldData()))
+        cells_dict = StubGrid.cells_dict
+
+    return Grid
+
+
+@pytest.fixture(params=["arrays", "VTK", "VTK, with a register"])
+def stub(request, monkeypatch):
+    """In place of PyVista: its grid of arrays alone, or on VTK's; older, or with the register of 0.48."""
+    library = types.ModuleType("pyvista")
+    library.UnstructuredGrid = type("UnstructuredGrid", (StubGrid,), {}) if request.param == "arrays" else vtk_grid_class()
+    if "register" in request.param:
+        def register_dataset_accessor(name, target):
+            class Once:  # one accessor for each grid, as PyVista keeps it
+                def __get__(self, grid, owner):
+                    return accessors.setdefault(id(grid), accessor[0](grid))
+
+            accessors, accessor = {}, []
+
+            def decorate(given):
+                accessor.append(given)
+                setattr(target, name, Once())
+                return given
+            return decorate
+        library.register_dataset_accessor = register_dataset_accessor
+    monkeypatch.setitem(sys.modules, "pyvista", library)
     monkeypatch.delitem(sys.modules, "tetmend.pyvista", raising=False)
     importlib.import_module("tetmend.pyvista")
+    yield library
+    sys.modules.pop("tetmend.pyvista", None)
+
+
+def test_pyvista_grids_have_an_accessor_that_keeps_data_and_result(stub):
     points, tets, side = lattice(4)
     flat = np.concatenate([[3, *tets[0][:3]], np.insert(tets, 0, 4, axis=1).ravel()])
     grid = stub.UnstructuredGrid(flat, [5] + [10] * len(tets), points)
@@ -537,7 +608,194 @@ def test_pyvista_grids_have_an_accessor(monkeypatch):
         assert volumes(better.points, now[better.cell_data["material"][1:] == label]).sum() == pytest.approx(1)
     assert np.allclose(better.point_data["linear"], better.points @ [1.0, 2.0, 3.0]) and better.field_data["note"] == ["mine"]
     assert len(better.cells_dict[5]) == 1
+    result = better.tetmend.result
+    assert result.after.n_bad == better.tetmend.quality().statistics.n_bad and len(result.vertex_map) == len(points)
+    assert grid.tetmend.result is None
+    again = better.tetmend.improve()
+    assert again.tetmend.result.before.n_bad == result.after.n_bad and better.tetmend.result is result
     from package_test import of_second_order
     curved, rows = of_second_order(points, tets)
     of_ten = stub.UnstructuredGrid(np.insert(rows, 0, 10, axis=1).ravel(), [24] * len(rows), curved)
     assert of_ten.tetmend.quality().statistics.n_bad == before.n_bad
+
+
+def test_pyvista_forgets_a_result_with_its_grid(stub):
+    points, tets, _ = lattice(3)
+    better = stub.UnstructuredGrid(np.insert(tets, 0, 4, axis=1).ravel(), [10] * len(tets), points).tetmend.improve()
+    results = sys.modules["tetmend.pyvista"]._results
+    assert len(results) == 1
+    del better
+    if not hasattr(stub, "register_dataset_accessor"):  # the stand-in keeps accessors, and these their grids
+        assert not results
+
+
+def test_pyvista_reads_files_that_it_does_not_know(stub, tmp_path):
+    module = sys.modules["tetmend.pyvista"]
+    mesh = tetmend.load(SOURCE / "assets/meshes/two_materials.mesh")
+    mesh.save(tmp_path / "part.vol")
+    with pytest.warns(UserWarning, match="triangles with labels are not in the grid"):
+        grid = module.read(tmp_path / "part.vol")
+    assert len(grid.cells_dict[10]) == len(mesh.tets) and set(grid.cell_data["label"]) == set(mesh.labels)
+    assert grid.tetmend.improve(label_array="label").tetmend.result.after.n_bad < 100
+    with pytest.raises(FileNotFoundError):
+        module.read(tmp_path / "none.vol")
+
+
+def test_what_entry_points_name_is_there(stub):
+    tomllib = pytest.importorskip("tomllib")
+    points = tomllib.loads((SOURCE / "pyproject.toml").read_text())["project"]["entry-points"]
+    assert set(points) == {"pyvista.accessors", "pyvista.readers"}
+    for value in [value for names in points.values() for value in names.values()]:
+        module, _, name = value.partition(":")
+        found = importlib.import_module(module)
+        assert not name or callable(getattr(found, name))
+    known = {extension for each in tetmend.formats() for extension in ([each] if isinstance(each, str) else each)}
+    assert set(points["pyvista.readers"]) <= known
+
+
+# --- DOLFINx
+
+
+@pytest.fixture
+def tagged_boxes(boxes):
+    """Two boxes with tags of cells and facets, of which some have none."""
+    pytest.importorskip("dolfinx")
+    from dolfinx.io import gmshio
+    from mpi4py import MPI
+    mesh, cells, facets = gmshio.model_to_mesh(boxes.model, MPI.COMM_SELF, 0)
+    return mesh, cells, facets
+
+
+def measures(mesh, tags, dimension):
+    """Volumes or areas by tag, from corners alone."""
+    mesh.topology.create_connectivity(dimension, 3)
+    from tetmend.dolfinx import _nodes_of_facets, _rows
+    nodes = (_rows(mesh.geometry.dofmap, 4) if dimension == 3 else _nodes_of_facets(mesh))[tags.indices]
+    p = mesh.geometry.x[nodes]
+    sizes = np.abs(np.linalg.det(p[:, 1:] - p[:, :1])) / 6 if dimension == 3 else \
+        np.linalg.norm(np.cross(p[:, 1] - p[:, 0], p[:, 2] - p[:, 0]), axis=1) / 2
+    return {int(tag): float(sizes[tags.values == tag].sum()) for tag in np.unique(tags.values)}
+
+
+def test_dolfinx_keeps_tags_of_cells_and_facets(tagged_boxes):
+    import tetmend.dolfinx
+    mesh, cells, facets = tagged_boxes
+    better = tetmend.dolfinx.improve(mesh, cells, facets, threads=2)
+    assert better.result.before.n_bad > 50 and better.result.after.n_bad == 0
+    for old, new, dimension in ((cells, better.cell_tags, 3), (facets, better.facet_tags, 2)):
+        assert measures(better.mesh, new, dimension) == pytest.approx(measures(mesh, old, dimension))
+        assert np.array_equal(new.indices, np.unique(new.indices)) and new.dim == dimension
+    assert len(better.cell_tags.indices) == better.result.after.tets == better.mesh.topology.index_map(3).size_local
+    made = tetmend.quality(better.mesh.geometry.x, np.asarray(getattr(better.mesh.geometry.dofmap, "array", better.mesh.geometry.dofmap)).reshape(-1, 4))
+    assert made.statistics.n_bad == 0 and made.statistics.theta_min == pytest.approx(better.result.after.theta_min)
+    # The points, in the order that the docstring promises.
+    order = np.asarray(better.mesh.geometry.input_global_indices)
+    assert np.array_equal(better.mesh.geometry.x, better.result.points[order])
+
+
+def test_dolfinx_keeps_cells_without_a_tag_apart(tagged_boxes):
+    import tetmend.dolfinx
+    from dolfinx.mesh import meshtags
+    mesh, cells, _ = tagged_boxes
+    left = cells.indices[cells.values == cells.values.min()]
+    some = meshtags(mesh, 3, left, np.full(len(left), 5, np.int32))
+    better = tetmend.dolfinx.improve(mesh, some)
+    assert better.facet_tags is None
+    assert measures(better.mesh, better.cell_tags, 3) == pytest.approx({5: 1.0})
+    assert len(better.cell_tags.indices) < better.result.after.tets
+    zero = meshtags(mesh, 3, left, np.zeros(len(left), np.int32))  # the value that cells without a tag might have
+    assert measures(mesh, tetmend.dolfinx.improve(mesh, zero).cell_tags, 3).keys() == {0}
+
+
+def test_dolfinx_refuses_other_cells_and_tags_of_another_dimension(tagged_boxes):
+    import tetmend.dolfinx
+    from dolfinx.mesh import create_unit_square
+    mesh, cells, facets = tagged_boxes
+    with pytest.raises(ValueError, match="other cells than tets of first order"):
+        tetmend.dolfinx.improve(create_unit_square(mesh.comm, 2, 2))
+    with pytest.raises(ValueError, match="cell_tags are of dimension 2, but 3 is wanted"):
+        tetmend.dolfinx.improve(mesh, facets)
+    with pytest.raises(TypeError, match="takes no 'labels' here"):
+        tetmend.dolfinx.improve(mesh, labels=[1])
+    with pytest.raises(ValueError, match="surface: facets with tags stay"):
+        tetmend.dolfinx.improve(mesh, cells, facets, surface="1%")
+
+
+# --- Meshers
+
+
+CORNERS = np.array([[x, y, z] for z in (0, 1) for y in (0, 1) for x in (0, 1)], float)
+SIDES = np.array([[0, 2, 1], [1, 2, 3], [4, 5, 6], [5, 7, 6], [0, 1, 4], [1, 5, 4], [2, 6, 3], [3, 6, 7], [0, 4, 2], [2, 4, 6], [1, 3, 5], [3, 7, 5]])
+
+
+def finer(points, triangles):
+    """Each triangle becomes four."""
+    edges = np.sort(np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]]), axis=1)
+    rows, inverse = np.unique(edges, axis=0, return_inverse=True)
+    ab, bc, ca = len(points) + inverse.reshape(3, -1)
+    a, b, c = triangles.T
+    return (np.concatenate([points, points[rows].mean(axis=1)]),
+            np.concatenate([np.stack(each, axis=1) for each in ((a, ab, ca), (ab, b, bc), (ca, bc, c), (ab, bc, ca))]))
+
+
+@pytest.fixture
+def cube():
+    """Turned and stretched by thirds, so that no coordinate is short."""
+    points, triangles = finer(*finer(*finer(CORNERS, SIDES)))
+    return points @ np.array([[2 / 3, 0.1, 0], [-0.1, 1 / 3, 0.05], [0, 1 / 7, 1]]), triangles
+
+
+@pytest.mark.parametrize("mesher", ["gmsh", "tetgen"])
+def test_a_surface_is_filled_and_its_triangles_stay_bit_for_bit(cube, mesher):
+    if shutil.which(mesher) is None:
+        pytest.skip(f"{mesher} is not installed")
+    points, triangles = cube
+    result = tetmend.from_surface(cube, mesher)
+    assert result.after.tets > 300 and result.after.n_bad < result.before.n_bad
+    rows, counts = np.unique(np.sort(np.concatenate([result.tets[:, k] for k in ([0, 1, 2], [0, 1, 3], [0, 2, 3], [1, 2, 3])]), axis=1),
+                             axis=0, return_counts=True)
+    wanted = {tuple(sorted(map(tuple, face))) for face in points[triangles].tolist()}
+    assert {tuple(sorted(map(tuple, face))) for face in result.points[rows[counts == 1]].tolist()} == wanted
+    fine = tetmend.from_surface(cube, mesher, size=0.06)
+    assert fine.after.tets > 1.5 * result.after.tets
+
+
+def test_files_of_stl_are_read_in_both_forms(cube, tmp_path):
+    points, triangles = cube
+    corners = points[triangles].astype(np.float32)
+    record = np.zeros(len(triangles), np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")]))
+    record["corners"] = corners
+    (tmp_path / "binary.stl").write_bytes(b"solid, though it is binary".ljust(80) + len(record).to_bytes(4, "little") + record.tobytes())
+    text = "".join("facet normal 0 0 0\nouter loop\n" + "".join("vertex " + " ".join(map(repr, map(float, p))) + "\n" for p in three) +
+                   "endloop\nendfacet\n" for three in corners)
+    (tmp_path / "text.STL").write_text(f"solid cube\n{text}endsolid cube\n")
+    from tetmend._surface import _read_stl
+    for name in ("binary.stl", "text.STL"):
+        read, numbers = _read_stl(tmp_path / name)
+        assert len(read) == len(points) and np.array_equal(read[numbers], corners.astype(float)), name
+    if shutil.which("tetgen"):
+        assert tetmend.from_surface(tmp_path / "binary.stl", "tetgen").ending == "finished"
+
+
+def test_a_surface_that_cannot_be_filled_is_refused_with_its_reason(cube, tmp_path, monkeypatch):
+    points, triangles = cube
+    with pytest.raises(ValueError, match="the surface is not closed: the edge of points .* has 1 triangle, and 3 edges are like it"):
+        tetmend.from_surface((points, triangles[1:]))
+    with pytest.raises(ValueError, match=r"triangles\[0, 1\] is 999, but there are 386 points"):
+        tetmend.from_surface((points, np.array([[0, 999, 1]])))
+    with pytest.raises(ValueError, match="mesher is 'tetwild': expected one of"):
+        tetmend.from_surface(cube, "tetwild")
+    with pytest.raises(FileNotFoundError, match="none.stl"):
+        tetmend.from_surface(tmp_path / "none.stl")
+    with pytest.raises(ValueError, match="of files from_surface\\(\\) reads .stl"):
+        tetmend.from_surface("part.step")
+    (tmp_path / "empty.stl").write_text("solid nothing\nendsolid\n")
+    with pytest.raises(ValueError, match="empty.stl: no STL file"):
+        tetmend.from_surface(tmp_path / "empty.stl")
+    if shutil.which("tetgen"):  # two cubes through each other
+        both = np.concatenate([points, points + 0.1]), np.concatenate([triangles, triangles + len(points)])
+        with pytest.raises(ValueError, match="tetgen (could not fill|did not keep) the surface"):
+            tetmend.from_surface(both, "tetgen")
+    monkeypatch.setenv("PATH", str(tmp_path))
+    with pytest.raises(ValueError, match="mesher: gmsh and tetgen are not installed, or not in PATH"):
+        tetmend.from_surface(cube)

@@ -13,6 +13,7 @@ import pickle
 import re
 import signal
 import subprocess
+import sys
 import threading
 import time
 
@@ -678,3 +679,46 @@ def test_the_stub_says_of_public_classes_what_the_extension_says():
 def test_all_that_is_public_has_a_docstring():
     for name in tetmend.__all__:
         assert name == "__version__" or getattr(tetmend, name).__doc__, name
+
+
+# --- what is missing, and what is shown
+
+
+@pytest.mark.parametrize("call", [tetmend.load, tetmend.Trace, lambda file: tetmend.check(file, file), lambda file: tetmend.Mesh(*TET).save(file)])
+def test_a_file_or_folder_that_is_not_there_is_pythons_own_error_and_ours(call, tmp_path):
+    file = str(tmp_path / "none" / "part.mesh")
+    with pytest.raises(FileNotFoundError) as missing:
+        call(file)
+    assert isinstance(missing.value, tetmend.Error) and isinstance(missing.value, tetmend.MissingFile)
+    assert file in str(missing.value) and missing.value.filename == file and missing.value.errno == 2
+    assert "\n" not in str(missing.value)
+
+
+def test_a_file_that_is_there_and_wrong_is_no_missing_file(tmp_path):
+    (tmp_path / "part.mesh").write_text("nothing")
+    with pytest.raises(tetmend.Error) as wrong:
+        tetmend.load(tmp_path / "part.mesh")
+    assert not isinstance(wrong.value, OSError)
+
+
+def test_a_notebook_shows_meshes_figures_and_checks_with_all_text_escaped(materials):
+    group = tetmend.Group(3, 7, "<b>steel", members=[0])
+    mesh = tetmend.Mesh(materials.points, materials.tets, labels=materials.labels, groups=[group], cell_data={"a & b": np.zeros(len(materials.tets))})
+    found = tetmend.quality(mesh, bad_tets=True, measures="mean_ratio")
+    held = tetmend.check(mesh, min_dihedral=30, no_inverted=True)
+    for each, words in ((mesh, ["4,306", "&lt;b&gt;steel", "a &amp; b", "regions"]), (found, ["533", "bad tets", "mean_ratio", "worst 10 of 533", "search"]),
+                        (held, ["FAIL", "ok", "1 of them do not hold"])):
+        page = each._repr_html_()
+        assert page.count("<table") == page.count("</table>") and "<b>steel" not in page
+        for word in words:
+            assert word in page, (type(each), word)
+    assert repr(found) == "<tetmend.Quality: 4,306 tets, 533 bad, angles 0.8426 to 178.4>"
+    assert repr(held) == "<tetmend.Check: 2 facts, 1 of them do not hold>"
+
+
+def test_importing_takes_less_than_a_fifth_of_a_second_of_the_processor_beside_numpy():
+    program = "import time, numpy; begin = time.process_time(); import tetmend; print(time.process_time() - begin)"
+    environment = dict(os.environ, PYTHONPATH=str(BUILD / "python"))
+    took = [float(subprocess.run([sys.executable, "-c", program], check=True, capture_output=True, text=True, env=environment).stdout)
+            for _ in range(3)]
+    assert min(took) < 0.2, took

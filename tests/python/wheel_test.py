@@ -3,6 +3,7 @@
 
 import os
 import re
+import shutil
 import subprocess
 import sys
 import sysconfig
@@ -50,14 +51,37 @@ def test_the_wheel_is_tagged_and_lists_its_files(tmp_path):
     import tetmend_build
     name = tetmend_build.build_wheel(tmp_path, {"build-dir": str(BUILD), "jobs": "2"})
     version = f"cp{sys.version_info.major}{sys.version_info.minor}"
-    assert name == f"tetmend-{tetmend_build._version()}-{version}-{version}-{sysconfig.get_platform().replace('-', '_')}.whl"
+    machine = sysconfig.get_platform().replace("linux-", "").replace("-", "_")
+    assert re.fullmatch(rf"tetmend-{tetmend_build._version()}-{version}-{version}-manylinux_2_\d\d_{machine}.whl", name)
     with zipfile.ZipFile(tmp_path / name) as archive:
         names = set(archive.namelist())
         record = next(each for each in names if each.endswith("RECORD"))
         assert {line.split(",")[0] for line in archive.read(record).decode().splitlines()} == names
+        metadata = archive.read(next(each for each in names if each.endswith("METADATA"))).decode()
+        points = archive.read(next(each for each in names if each.endswith("entry_points.txt"))).decode()
+    for line in ("Home-page: https://", "Author: ", "Classifier: ", "Keywords: ", "Project-URL: Source, https://"):
+        assert f"\n{line}" in metadata
+    assert "[pyvista.accessors]\ntetmend = tetmend.pyvista\n" in points
     modules = {f"tetmend/{path.name}" for path in (SOURCE / "bindings/python/tetmend").iterdir() if path.is_file()}
     assert modules <= names and "tetmend/libtetmend.so.0" in names
     assert any(each.endswith("licenses/LICENSE") for each in names) and any(each.endswith("THIRD-PARTY.md") for each in names)
+
+
+def test_each_bundled_library_has_a_name_of_its_own_and_its_licence(tmp_path):
+    if shutil.which("patchelf") is None:
+        pytest.skip("patchelf is not installed")
+    sys.path.insert(0, str(SOURCE / "bindings/python/backend"))
+    import tetmend_build
+    name = tetmend_build.build_wheel(tmp_path, {"build-dir": str(BUILD), "jobs": "2"})
+    with zipfile.ZipFile(tmp_path / name) as archive:
+        archive.extractall(tmp_path / "wheel")
+    package = tmp_path / "wheel/tetmend"
+    bundled = {file.name for file in package.glob("*.so*")} - {"libtetmend.so.0"} - {file.name for file in package.glob("_core*")}
+    assert len(bundled) >= 4 and all(re.fullmatch(r"lib[\w+.]+-[0-9a-f]{8}\.so[.\d]*", each) for each in bundled), bundled
+    needed = {each for file in package.glob("*.so*") for each in re.findall(r"NEEDED.*\[(.*)\]", run("readelf", "-d", file))}
+    assert {each for each in needed if not tetmend_build.OF_THE_SYSTEM.match(each)} == bundled | {"libtetmend.so.0"}
+    licences = {file.name for file in (tmp_path / "wheel").glob("*.dist-info/licenses/*.so*.txt")}
+    assert licences == {f"{each}.txt" for each in bundled}
 
 
 def test_the_source_archive_has_what_a_build_needs(tmp_path):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""A dependency stands in script/bootstrap, README, docs/dependencies.md and CMake at once.
+"""A dependency stands in script/bootstrap, docs/install.md, docs/dependencies.md and CMake at once.
 
 bootstrap_test.py SOURCE_FOLDER
 """
@@ -54,8 +54,8 @@ def found_by_cmake() -> set[str]:
 
 
 class Dependencies(unittest.TestCase):
-    def test_the_readme_quotes_the_list_of_bootstrap(self) -> None:
-        self.assertIn(f"```\n{listed()}```", (SOURCE / "README.md").read_text())
+    def test_the_page_on_installing_quotes_the_list_of_bootstrap(self) -> None:
+        self.assertIn(f"```\n{listed()}```", (SOURCE / "docs" / "install.md").read_text())
 
     def test_each_package_has_a_purpose(self) -> None:
         self.assertEqual({name for row in table() for name in quoted(row[0])}, packages())

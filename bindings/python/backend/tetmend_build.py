@@ -35,16 +35,38 @@ def _version() -> str:
 
 def _metadata() -> str:
     project = tomllib.loads((SOURCE / "pyproject.toml").read_text())["project"]
+    address = (SOURCE / "packaging/address").read_text().strip()
     lines = ["Metadata-Version: 2.1", f"Name: {project['name']}", f"Version: {_version()}", f"Summary: {project['description']}",
-             f"License: {project['license']['text']}", f"Requires-Python: {project['requires-python']}",
+             f"Home-page: {address}", *(f"Author: {each['name']}" for each in project["authors"]),
+             f"License: {project['license']['text']}", f"Keywords: {','.join(project['keywords'])}",
+             *(f"Classifier: {each}" for each in project["classifiers"]), f"Project-URL: Source, {address}",
+             f"Requires-Python: {project['requires-python']}",
              *(f"Requires-Dist: {each}" for each in project["dependencies"]), "Description-Content-Type: text/markdown", "",
              (SOURCE / project["readme"]).read_text()]
     return "\n".join(lines)
 
 
-def _tag() -> str:
+def _entry_points() -> str:
+    groups = tomllib.loads((SOURCE / "pyproject.toml").read_text())["project"]["entry-points"]
+    return "\n".join(f"[{group}]\n" + "".join(f"{name} = {value}\n" for name, value in names.items()) for group, names in groups.items())
+
+
+def _glibc(package: Path) -> int:
+    """The lowest N of glibc 2.N that has all functions which the binaries of a package ask for."""
+    wanted = {17}
+    for file in package.glob("*.so*"):
+        listed = subprocess.run(["objdump", "-T", file], check=True, capture_output=True, text=True).stdout
+        wanted |= {int(minor) for minor in re.findall(r"\*UND\*.*\(GLIBC_2\.(\d+)", listed)}
+    return max(wanted)
+
+
+def _tag(package: Path | None = None) -> str:
+    """For this Python and machine; of a package that has all its libraries inside, for each Linux with its glibc (PEP 600)."""
     python = f"cp{sys.version_info.major}{sys.version_info.minor}"
-    return f"{python}-{python}-{re.sub('[-.]', '_', sysconfig.get_platform())}"
+    machine = re.sub("[-.]", "_", sysconfig.get_platform())
+    if package is not None:
+        machine = machine.replace("linux_", f"manylinux_2_{_glibc(package)}_")
+    return f"{python}-{python}-{machine}"
 
 
 def _install(settings: dict, prefix: Path) -> None:
@@ -64,12 +86,39 @@ def _install(settings: dict, prefix: Path) -> None:
         raise RuntimeError(f"{build} is for another Python: there is no {extension}")
 
 
-def _bundle_libraries(package: Path) -> None:
-    """Copies of the libraries of the system that libtetmend.so needs, found beside it by its run path."""
+def _bundle_libraries(package: Path) -> dict[str, Path]:
+    """Copies of the libraries of the system that libtetmend.so needs, found beside it by its run path: names, and where each is from.
+
+    Another package may bring the same library of another version, and a process keeps the first of a name: with patchelf each gets a
+    name of its own.
+    """
     listed = subprocess.run(["ldd", package / "libtetmend.so.0"], check=True, capture_output=True, text=True).stdout
-    for name, file in re.findall(r"^\s*(\S+) => (/\S+)", listed, re.M):
-        if not OF_THE_SYSTEM.match(name):
-            shutil.copyfile(file, package / name)
+    needed = {name: Path(file) for name, file in re.findall(r"^\s*(\S+) => (/\S+)", listed, re.M) if not OF_THE_SYSTEM.match(name)}
+    patchelf = shutil.which("patchelf")
+    new_names = {}
+    for name, file in needed.items():
+        stem, _, rest = name.partition(".so")
+        digest = hashlib.sha256(file.read_bytes()).hexdigest()[:8]
+        new_names[name] = f"{stem}-{digest}.so{rest}" if patchelf else name
+        shutil.copyfile(file, package / new_names[name])
+    if patchelf:
+        renamings = [word for old, new in new_names.items() for word in ("--replace-needed", old, new)]
+        for binary in package.glob("*.so*"):
+            own = ["--set-soname", binary.name] if binary.name in new_names.values() else []
+            subprocess.run([patchelf, *own, *renamings, binary], check=True)
+    return {new_names[name]: file for name, file in needed.items()}
+
+
+def _copy_licences(libraries: dict[str, Path], folder: Path) -> None:
+    """Of the packages of Debian that they are from; of another system THIRD-PARTY.md has to do."""
+    for name, file in libraries.items():
+        for candidate in (file, file.resolve(), Path(str(file).removeprefix("/usr")), Path(str(file.resolve()).removeprefix("/usr"))):
+            found = subprocess.run(["dpkg-query", "-S", candidate], capture_output=True, text=True) if shutil.which("dpkg-query") else None
+            if found is not None and found.returncode == 0:
+                copyright_file = Path("/usr/share/doc") / found.stdout.partition(":")[0] / "copyright"
+                if copyright_file.exists():
+                    shutil.copyfile(copyright_file, folder / f"{name}.txt")
+                break
 
 
 def _pack(root: Path, wheel: Path, info: str) -> None:
@@ -84,11 +133,12 @@ def _pack(root: Path, wheel: Path, info: str) -> None:
         archive.writestr(f"{info}/RECORD", "\n".join([*record, f"{info}/RECORD,,", ""]))
 
 
-def _write_info(root: Path, info: str) -> None:
+def _write_info(root: Path, info: str, tag: str) -> None:
     folder = root / info
     (folder / "licenses").mkdir(parents=True)
     (folder / "METADATA").write_text(_metadata())
-    (folder / "WHEEL").write_text(f"Wheel-Version: 1.0\nGenerator: tetmend_build\nRoot-Is-Purelib: false\nTag: {_tag()}\n")
+    (folder / "WHEEL").write_text(f"Wheel-Version: 1.0\nGenerator: tetmend_build\nRoot-Is-Purelib: false\nTag: {tag}\n")
+    (folder / "entry_points.txt").write_text(_entry_points())
     for name in ("LICENSE", "THIRD-PARTY.md"):
         shutil.copyfile(SOURCE / name, folder / "licenses" / name)
 
@@ -103,20 +153,22 @@ def get_requires_for_build_sdist(config_settings=None) -> list[str]:
 
 def prepare_metadata_for_build_wheel(metadata_directory, config_settings=None) -> str:
     info = f"tetmend-{_version()}.dist-info"
-    _write_info(Path(metadata_directory), info)
+    _write_info(Path(metadata_directory), info, _tag())
     return info
 
 
 def build_wheel(wheel_directory, config_settings=None, metadata_directory=None) -> str:
     settings = config_settings or {}
     name = f"tetmend-{_version()}"
-    wheel = f"{name}-{_tag()}.whl"
     with tempfile.TemporaryDirectory() as folder:
         root = Path(folder)
         _install(settings, root)
-        if settings.get("system-libs") != "true":
-            _bundle_libraries(root / "tetmend")
-        _write_info(root, f"{name}.dist-info")
+        has_all = settings.get("system-libs") != "true"
+        libraries = _bundle_libraries(root / "tetmend") if has_all else {}
+        tag = _tag(root / "tetmend" if has_all else None)
+        _write_info(root, f"{name}.dist-info", tag)
+        _copy_licences(libraries, root / f"{name}.dist-info" / "licenses")
+        wheel = f"{name}-{tag}.whl"
         _pack(root, Path(wheel_directory) / wheel, f"{name}.dist-info")
     return wheel
 

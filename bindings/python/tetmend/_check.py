@@ -9,6 +9,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from tetmend import _core
+from tetmend._html import check_as_html
 from tetmend._mesh import Mesh, PathLike, load, mesh_in
 
 
@@ -23,7 +24,7 @@ class Fact:
     wanted: float | int | None
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Check:
     """All facts. It is true if all of them hold."""
 
@@ -41,6 +42,12 @@ class Check:
 
     def __bool__(self) -> bool:
         return self.holds
+
+    def __repr__(self) -> str:
+        return f"<tetmend.Check: {len(self.facts)} facts, {sum(not fact.holds for fact in self.facts)} of them do not hold>"
+
+    def _repr_html_(self) -> str:
+        return check_as_html(self)
 
     def __str__(self) -> str:
         return "\n".join(f"{'ok  ' if fact.holds else 'FAIL'}  {fact.text}" for fact in self.facts)

@@ -3,9 +3,11 @@
 
 from __future__ import annotations
 
+import errno
 import numbers
 import os
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, NoReturn
@@ -15,8 +17,35 @@ from numpy.typing import ArrayLike, NDArray
 
 from tetmend import _core
 from tetmend._arrays import Forms, array_of, pack, unpack
+from tetmend._html import mesh_as_html
 
 PathLike = str | os.PathLike[str]
+
+
+class MissingFile(_core.Error, FileNotFoundError):
+    """A file or a folder that is not there: an Error, and Python's own FileNotFoundError."""
+
+    def __str__(self) -> str:
+        return str(self.args[0])
+
+
+def missing_file(file: PathLike, reason: str) -> MissingFile:
+    error = MissingFile(f"{os.fspath(file)}: {os.strerror(errno.ENOENT)}: {reason}")
+    error.errno, error.filename = errno.ENOENT, os.fspath(file)
+    return error
+
+
+@contextmanager
+def naming_missing_files(file: PathLike) -> Iterator[None]:
+    """An Error of the library that says so becomes a MissingFile."""
+    try:
+        yield
+    except _core.Error as error:
+        if os.strerror(errno.ENOENT) not in str(error) or isinstance(error, MissingFile):
+            raise
+        missing = MissingFile(str(error))
+        missing.errno, missing.filename = errno.ENOENT, os.fspath(file)
+        raise missing from None
 
 
 @dataclass(frozen=True, eq=False)
@@ -147,6 +176,9 @@ class Mesh:
     def __repr__(self) -> str:
         return f"<tetmend.Mesh: {self._core.point_count:,} points, {self._core.tet_count:,} tets>"
 
+    def _repr_html_(self) -> str:
+        return mesh_as_html(self)
+
     def _integers(self, array: NDArray[Any]) -> NDArray[Any]:
         """Numbers of points, as the type that was given, or int32 where that is too narrow for them."""
         if self._integer == np.uint32:
@@ -252,11 +284,12 @@ def load(file: PathLike, *, threads: int = 1, label_array: str = "") -> Mesh:
     """Reads a mesh; the format follows from the extension, see formats().
 
     label_array: the array over cells that holds their labels; empty: the one with a name that mesh tools use.
-    Raises Error, ``FILE:LINE: reason``, for a file that cannot be read. `Mesh.notes` names what of it is not kept.
+    Raises Error, ``FILE:LINE: reason``, for a file that cannot be read; of one that is not there it is a FileNotFoundError, too. `Mesh.notes` names what of it is not kept.
     """
     if not isinstance(file, (str, os.PathLike)):
         raise TypeError(f"load() takes the name of a file, not {type(file).__name__}")
-    return Mesh._of(_core.load(os.fspath(file), threads, label_array))
+    with naming_missing_files(file):
+        return Mesh._of(_core.load(os.fspath(file), threads, label_array))
 
 
 def save(file: PathLike, mesh: Mesh, *, threads: int = 1, variant: str = "") -> list[str]:
@@ -268,4 +301,6 @@ def save(file: PathLike, mesh: Mesh, *, threads: int = 1, variant: str = "") -> 
     """
     if not isinstance(file, (str, os.PathLike)):
         raise TypeError(f"save() takes the name of a file and a Mesh, not {type(file).__name__} first")
-    return _core.save(os.fspath(file), mesh_in(mesh, "save(file, mesh)")._core, threads, variant)
+    core = mesh_in(mesh, "save(file, mesh)")._core
+    with naming_missing_files(file):
+        return _core.save(os.fspath(file), core, threads, variant)

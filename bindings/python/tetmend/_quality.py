@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike
 
 from tetmend import _core
 from tetmend._figures import Statistics
+from tetmend._html import quality_as_html
 from tetmend._mesh import Mesh, mesh_in
 
 
@@ -33,7 +34,7 @@ class BadTet:
     """Why it is there: 'frozen', 'surface', 'constraint', 'no_free_vertex', 'search'."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Quality:
     """What quality() found."""
 
@@ -48,6 +49,13 @@ class Quality:
     """What is peculiar about the mesh."""
     notes: list[str]
     """Where points touch without being joined."""
+
+    def __repr__(self) -> str:
+        figures = self.statistics
+        return f"<tetmend.Quality: {figures.tets:,} tets, {figures.n_bad:,} bad, angles {figures.theta_min:.4g} to {figures.theta_max:.4g}>"
+
+    def _repr_html_(self) -> str:
+        return quality_as_html(self)
 
 
 def quality(mesh: Mesh | ArrayLike, tets: ArrayLike | None = None, *, labels: ArrayLike | None = None,

@@ -11,7 +11,7 @@ from collections.abc import Iterator
 from typing import Any
 
 from tetmend import _core
-from tetmend._mesh import Mesh, PathLike
+from tetmend._mesh import Mesh, PathLike, naming_missing_files
 
 _AT_ONCE = 4096  # events
 
@@ -54,7 +54,8 @@ class Trace:
 
     def __init__(self, file: PathLike) -> None:
         self._file = os.fspath(file)
-        self._core = _core.Trace(self._file)
+        with naming_missing_files(file):
+            self._core = _core.Trace(self._file)
 
     def __repr__(self) -> str:
         return f"<tetmend.Trace of {self.input or 'arrays'}: {self.call_count:,} calls, {self.event_count:,} events>"
