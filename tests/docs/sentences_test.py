@@ -14,7 +14,7 @@ from pathlib import Path
 
 SOURCE = Path(sys.argv[1])
 MOST_WORDS = 30
-ITEM = re.compile(r"\s*(?:[-*]|\d\.)\s+")
+ITEM = re.compile(r"^\s*(?:[-*]|\d\.)\s+")
 
 
 def paragraphs(page: str) -> Iterator[str]:
