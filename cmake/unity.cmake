@@ -1,5 +1,5 @@
 # tetmend_unity(TARGET): eight sources are compiled as one, where TETMEND_UNITY is on, for most of the time of a compiler goes
-# into headers. A source that has a name inside which another has too is compiled alone: unity_alone.txt lists them.
+# into headers. Sources that define the same private name are compiled alone: unity_alone.txt lists them.
 file(STRINGS ${CMAKE_CURRENT_LIST_DIR}/unity_alone.txt tetmend_unity_alone REGEX "^[^#]")
 set_property(DIRECTORY ${PROJECT_SOURCE_DIR} APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${CMAKE_CURRENT_LIST_DIR}/unity_alone.txt)
 function(tetmend_unity target)

@@ -7,7 +7,7 @@
 
 #include "contract/zoo.h"
 #include "envelope/envelope.h"
-#include "ops/edge_contraction.h"
+#include "ops/builtin_operators.h"
 
 namespace tetmend::contract {
 

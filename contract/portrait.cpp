@@ -7,7 +7,7 @@
 
 #include "contract/zoo.h"
 #include "kernel/integrity.h"
-#include "ops/surface_vertex.h"
+#include "ops/where.h"
 
 namespace tetmend::contract {
 

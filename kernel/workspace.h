@@ -153,7 +153,7 @@ class TETMEND_API Workspace {
     bool constrained;
   };
   std::vector<Gluing> gluing_;
-  /// What a transaction has changed, for who asks.
+  /// What a transaction has changed, for those who ask.
   struct Past {
     struct Place {
       VertexHandle vertex;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Which attempts of plugins have not come back yet: for who wants to know why a run stands still,
-// or where it crashed.
+// Which attempts of plugins have not come back yet: for those who want to know why a run stands
+// still, or where it crashed.
 #pragma once
 
 #include <chrono>

@@ -1,28 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The operators of tetmend itself, one line each.
-#include "ops/cavity_insertion.h"
-#include "ops/centroid_insertion.h"
-#include "ops/circumcentre_insertion.h"
-#include "ops/edge_contraction.h"
-#include "ops/edge_removal.h"
-#include "ops/edge_split.h"
-#include "ops/flip_2_3.h"
-#include "ops/flip_3_2.h"
-#include "ops/flip_4_4.h"
-#include "ops/joint_smoothing.h"
-#include "ops/mean_smoothing.h"
-#include "ops/multi_face_removal.h"
-#include "ops/polyhedron_reconnection.h"
-#include "ops/recursive_shell_transformation.h"
+#include "ops/builtin_operators.h"
+
 #include "ops/registry.h"
-#include "ops/shell_transformation.h"
-#include "ops/smoothing.h"
-#include "ops/surface_contraction.h"
-#include "ops/surface_edge_removal.h"
-#include "ops/surface_insertion.h"
-#include "ops/surface_smoothing.h"
-#include "ops/surface_split.h"
-#include "ops/vertex_removal.h"
 
 namespace tetmend {
 

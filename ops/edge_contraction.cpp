@@ -6,15 +6,14 @@
 //    \   / \   /          \     .-' /
 //     \ /   \ /            \ .-'   /
 //      s-----t              s-----t
-#include "ops/edge_contraction.h"
-
 #include <algorithm>
 #include <limits>
 
 #include "kernel/index_set.h"
 #include "kernel/star.h"
 #include "kernel/wanted_lengths.h"
-#include "ops/smoothing.h"
+#include "ops/builtin_operators.h"
+#include "ops/vertex_ball.h"
 
 namespace tetmend {
 
@@ -29,33 +28,48 @@ struct Near {
   }
 };
 
-struct State {
-  BallState ball;
-  std::vector<Near> near;
-  VertexHandle kept_vertex;
-  std::vector<VertexHandle> neighbours;
-  IndexSet set;
-  std::vector<Quality> qualities;
-  std::vector<Quality> best_qualities;
-  Replacement replacement;
+/// A neighbour to merge into.
+struct Candidate {
+  VertexHandle kept;
+  std::vector<Quality> qualities;  // ascending, before smoothing
 };
 
-class EdgeContraction final : public OperatorOf<State> {
+struct ContractionState {
+  BallState ball;
+  std::vector<Near> near;
+  std::vector<VertexHandle> neighbours;
+  IndexSet set;
+  std::vector<Candidate> candidates;  // the first `count`; the others are room
+  std::size_t count = 0;
+  std::size_t next = 0;  // to be tried
+  LabelledReplacement replacement;
+};
+
+/// Target: a vertex. Tries to merge it into each neighbour, takes the neighbour with the best
+/// quality vector, and smooths that neighbour unless it is fixed ([chen, 6.3]). Inside refuses fixed
+/// vertices; at the surface merges a vertex of a patch into a neighbour on the surface, one of a
+/// feature line into a neighbour on that line, and tries several neighbours. Under a judge of
+/// lengths the neighbours are those that are too near, and stay where they are. Else a neighbour
+/// that may move must promise a share of the worst quality of the ball, the `least_ratio`, before it
+/// is smoothed. Cost: linear in ball size times neighbours.
+template <Where where>
+class EdgeContraction final : public OperatorOf<ContractionState> {
  public:
   explicit EdgeContraction(const ParameterValues& values)
-      : OperatorOf(edge_contraction_info()), least_ratio_(values.real("least_ratio")) {
+      : OperatorOf(kInside ? edge_contraction_info() : surface_contraction_info()),
+        least_ratio_(values.real("least_ratio")),
+        tries_(kInside ? 1 : static_cast<std::size_t>(values.integer("tries"))) {
     limits_.steps = values.integer("steps");
   }
 
  protected:
-  Verdict precondition(const OperatorContext& context, Target target, State&) const override {
-    const VertexHandle v = target.vertex();
-    if (context.mesh.is_deleted(v) || !context.mesh.tet_of(v).is_valid())
-      return Verdict::not_applicable;
-    return context.mesh.is_fixed(v) ? Verdict::constrained : Verdict::accepted;
+  Verdict precondition(const OperatorContext& context, Target target,
+                       ContractionState&) const override {
+    return check_vertex(context.mesh, target.vertex(), where);
   }
 
-  Verdict evaluate(OperatorContext& context, Target target, State& state) const override {
+  Verdict evaluate(OperatorContext& context, Target target,
+                   ContractionState& state) const override {
     const TetMesh& mesh = context.mesh;
     const VertexHandle v = target.vertex();
     const StarKind kind = find_star(mesh, v, context.workspace, state.ball.link);
@@ -63,52 +77,68 @@ class EdgeContraction final : public OperatorOf<State> {
     load_ball(mesh, state.ball.link, state.ball.ball);
     Quality worst_old = mesh.quality(state.ball.link[0].tet());
     for (const HalfFace f : state.ball.link) worst_old = std::min(worst_old, mesh.quality(f.tet()));
-    list_neighbours(mesh, state);
-
-    state.kept_vertex = VertexHandle();
-    if (context.judge->looks_at_mean()) return find_roundest(context, v, state);
-    if (context.judge->looks_at_lengths()) {
-      return find_near(mesh, v, context.judge->floor(worst_old), state);
+    state.count = state.next = 0;
+    const double floor = context.judge->floor(worst_old);
+    if constexpr (kInside) {
+      list_neighbours(mesh, state);
+      if (context.judge->looks_at_mean()) return find_roundest(context, v, state);
+      if (context.judge->looks_at_lengths()) return find_near(mesh, v, floor, state);
+    } else {
+      list_neighbours_on_surface(mesh, v, state);
+      if (context.judge->looks_at_lengths()) leave_near(mesh, v, state.neighbours);
     }
     for (const VertexHandle w : state.neighbours) {
       // Smoothing can only raise the quality if the neighbour may move.
-      const double share = mesh.is_fixed(w) ? 1 : least_ratio_;
-      const double least =
-          std::min(context.judge->floor(worst_old), share * static_cast<double>(worst_old));
-      if (!contract(mesh, w, std::max(least, 0.0), state)) continue;
-      if (state.kept_vertex.is_valid() && !improves(state.qualities, state.best_qualities))
-        continue;
-      state.kept_vertex = w;
-      std::swap(state.best_qualities, state.qualities);
+      const bool moves = kInside ? !mesh.is_fixed(w) : may_change(mesh, w);
+      const double share = moves ? least_ratio_ : 1;
+      consider(mesh, w, std::min(floor, share * static_cast<double>(worst_old)), state);
     }
-    return state.kept_vertex.is_valid() ? Verdict::accepted : Verdict::no_improvement;
+    if constexpr (!kInside) {
+      std::sort(state.candidates.begin(),
+                state.candidates.begin() + static_cast<std::ptrdiff_t>(state.count),
+                [](const Candidate& x, const Candidate& y) {
+                  return x.qualities != y.qualities ? x.qualities > y.qualities : x.kept < y.kept;
+                });
+    }
+    return state.count > 0 ? Verdict::accepted : Verdict::no_improvement;
   }
 
-  Verdict apply(OperatorContext& context, Target, Transaction& transaction,
-                State& state) const override {
+  Verdict apply(OperatorContext& context, Target target, Transaction& transaction,
+                ContractionState& state) const override {
     const TetMesh& mesh = context.mesh;
-    const VertexHandle w = state.kept_vertex;
-    state.replacement.old_tets.clear();
-    state.replacement.new_tets.clear();
-    for (const HalfFace f : state.ball.link) {
+    auto& link = state.ball.link;
+    const VertexHandle w = state.candidates[state.next].kept;
+    if (state.next > 0) {  // the link was that of another vertex meanwhile
+      const StarKind kind = find_star(mesh, target.vertex(), context.workspace, link);
+      if (kind != StarKind::whole) return to_verdict(kind);
+    }
+    state.replacement.clear();
+    for (const HalfFace f : link) {
       state.replacement.old_tets.push_back(f.tet());
       const auto [a, b, c] = mesh.vertices(f);
-      if (a != w && b != w && c != w) state.replacement.new_tets.push_back({w, a, b, c});
+      if (a != w && b != w && c != w) state.replacement.add({w, a, b, c}, mesh.label(f.tet()));
     }
-    const Verdict verdict = state.replacement.make(transaction);
-    if (verdict != Verdict::accepted || mesh.is_fixed(w) || context.judge->looks_at_lengths()) {
-      return verdict;
+    const Verdict verdict = state.replacement.make(transaction, where);
+    if (verdict != Verdict::accepted || context.judge->looks_at_lengths()) return verdict;
+    if (kInside && !mesh.is_fixed(w) &&
+        find_star(mesh, w, context.workspace, link) == StarKind::border) {
+      return Verdict::deferred;
     }
-    const StarKind kind = find_star(mesh, w, context.workspace, state.ball.link);
-    if (kind == StarKind::border) return Verdict::deferred;
     // A refused move leaves the contraction as it is; the judge decides.
-    climb(context, transaction, w, limits_, state.ball);
+    climb(context, transaction, w, limits_, state.ball, where);
     return Verdict::accepted;
   }
 
+  bool propose_next(OperatorContext&, Target, ContractionState& state) const override {
+    return ++state.next < std::min(state.count, tries_);
+  }
+
  private:
+  static constexpr bool kInside = where == Where::inside;
+
   /// The neighbour with which the mean of the mean ratios rises most, of the nearest.
-  Verdict find_roundest(const OperatorContext& context, VertexHandle v, State& state) const {
+  Verdict find_roundest(const OperatorContext& context, VertexHandle v,
+                        ContractionState& state) const {
     constexpr std::size_t kNearest = 5;
     const TetMesh& mesh = context.mesh;
     const Point& place = mesh.point(v);
@@ -138,13 +168,17 @@ class EdgeContraction final : public OperatorOf<State> {
       }
       if (now <= best) continue;
       best = now;
-      state.kept_vertex = w;
+      state.count = 0;
+      next_candidate(state).kept = w;
+      state.count = 1;
     }
-    return state.kept_vertex.is_valid() ? Verdict::accepted : Verdict::no_improvement;
+    return state.count > 0 ? Verdict::accepted : Verdict::no_improvement;
   }
+
   /// The best neighbour, by its quality vector, of the nearest that are too near; no new edge may miss
   /// the wanted lengths by as much as the one that goes.
-  static Verdict find_near(const TetMesh& mesh, VertexHandle v, double least, State& state) {
+  static Verdict find_near(const TetMesh& mesh, VertexHandle v, double least,
+                           ContractionState& state) {
     constexpr std::size_t kNearest = 5;
     const WantedLengths& wanted = *mesh.size_field()->wanted();
     const Point& place = mesh.point(v);
@@ -162,20 +196,17 @@ class EdgeContraction final : public OperatorOf<State> {
           std::all_of(state.neighbours.begin(), state.neighbours.end(), [&, w = w](VertexHandle x) {
             return x == w || WantedLengths::fit(wanted.relative_length(to, mesh.point(x))) > fit;
           });
-      if (!fits || !contract(mesh, w, std::max(least, 0.0), state)) continue;
-      if (state.kept_vertex.is_valid() && !improves(state.qualities, state.best_qualities)) {
-        continue;
-      }
-      state.kept_vertex = w;
-      std::swap(state.best_qualities, state.qualities);
+      if (fits) consider(mesh, w, least, state);
     }
-    return state.kept_vertex.is_valid() ? Verdict::accepted : Verdict::no_improvement;
+    return state.count > 0 ? Verdict::accepted : Verdict::no_improvement;
   }
+
   static double round(const TetMesh& mesh, HalfFace f, const Point& point) {
     const auto [a, b, c] = mesh.vertices(f);
     return mean_ratio(point, mesh.point(a), mesh.point(b), mesh.point(c));
   }
-  static void list_neighbours(const TetMesh& mesh, State& state) {
+
+  static void list_neighbours(const TetMesh& mesh, ContractionState& state) {
     state.set.clear();
     state.neighbours.clear();
     for (const HalfFace f : state.ball.link) {
@@ -185,44 +216,108 @@ class EdgeContraction final : public OperatorOf<State> {
     }
   }
 
-  /// Qualities (ascending) of the ball re-coned from w, into state.qualities. False as soon as
-  /// one is not above `least`.
-  static bool contract(const TetMesh& mesh, VertexHandle w, double least, State& state) {
+  /// Of a vertex of a patch those along the surface, of one of a line those along the line.
+  static void list_neighbours_on_surface(const TetMesh& mesh, VertexHandle v,
+                                         ContractionState& state) {
+    const SurfaceGuard& guard = *mesh.surface_guard();
+    const bool on_line = guard.place(v) == SurfacePlace::ridge;
+    state.set.clear();
+    state.neighbours.clear();
+    for (const HalfFace opposite : state.ball.link) {
+      for (unsigned k = 0; k < 4; ++k) {
+        const HalfFace f(opposite.tet(), k);
+        if (k == opposite.face() || !(mesh.is_boundary(f) || mesh.is_constrained(f))) continue;
+        for (const VertexHandle w : mesh.vertices(f)) {
+          if (w == v || !state.set.insert(w.index())) continue;
+          if (!on_line || guard.is_feature(v, w)) state.neighbours.push_back(w);
+        }
+      }
+    }
+  }
+
+  /// Leaves those that are nearer than wanted.
+  static void leave_near(const TetMesh& mesh, VertexHandle v,
+                         std::vector<VertexHandle>& neighbours) {
+    const WantedLengths& wanted = *mesh.size_field()->wanted();
+    std::erase_if(neighbours, [&](VertexHandle w) {
+      return wanted.relative_length(mesh.point(v), mesh.point(w)) >= WantedLengths::kLeast;
+    });
+  }
+
+  /// The place for one more candidate.
+  static Candidate& next_candidate(ContractionState& state) {
+    if (state.count == state.candidates.size()) state.candidates.emplace_back();
+    return state.candidates[state.count];
+  }
+
+  /// Makes a neighbour a candidate if contract() finds it good enough. Inside, only the best stays
+  /// one.
+  static void consider(const TetMesh& mesh, VertexHandle w, double least, ContractionState& state) {
+    Candidate& candidate = next_candidate(state);
+    candidate.kept = w;
+    if (!contract(mesh, w, std::max(least, 0.0), state.ball, candidate.qualities)) return;
+    if (kInside && state.count == 1) {
+      Candidate& best = state.candidates[0];
+      if (improves(candidate.qualities, best.qualities)) std::swap(best, candidate);
+    } else {
+      ++state.count;
+    }
+  }
+
+  /// Qualities (ascending) of the ball re-coned from w. False as soon as one is not above `least`.
+  static bool contract(const TetMesh& mesh, VertexHandle w, double least, BallState& state,
+                       std::vector<Quality>& qualities) {
     // The tets at the edge that goes have quality 0; one below refuses.
     constexpr double kLessThanZero = -std::numeric_limits<double>::min();
-    if (state.ball.ball.worst_above(mesh.point(w), kLessThanZero) <= kLessThanZero) return false;
-    state.qualities.clear();
-    for (std::size_t i = 0; i < state.ball.link.size(); ++i) {
-      const auto [a, b, c] = mesh.vertices(state.ball.link[i]);
+    if (state.ball.worst_above(mesh.point(w), kLessThanZero) <= kLessThanZero) return false;
+    qualities.clear();
+    for (std::size_t i = 0; i < state.link.size(); ++i) {
+      const auto [a, b, c] = mesh.vertices(state.link[i]);
       if (a == w || b == w || c == w) continue;
-      const double q = state.ball.ball.quality(i);
+      const double q = state.ball.quality(i);
       if (!(q > least)) return false;
-      state.qualities.push_back(static_cast<Quality>(q));
+      qualities.push_back(static_cast<Quality>(q));
     }
-    std::sort(state.qualities.begin(), state.qualities.end());
-    return !state.qualities.empty();
+    std::sort(qualities.begin(), qualities.end());
+    return !qualities.empty();
   }
 
   double least_ratio_;
+  std::size_t tries_;
   BallOptimiser::Limits limits_;
 };
 
-constexpr std::array<ParameterSpec, 2> kParameters = {{
-    {"least_ratio", ParameterSpec::Kind::real, 0, 1, 0.7,
-     "least worst quality before smoothing, as a share of the old worst quality"},
-    {"steps", ParameterSpec::Kind::integer, 1, 1000, 5,
-     "most directions that the smoothing follows"},
-}};
+constexpr ParameterSpec kContractionLeastRatio = {
+    "least_ratio",
+    ParameterSpec::Kind::real,
+    0,
+    1,
+    0.7,
+    "least worst quality before smoothing, as a share of the old worst quality"};
+constexpr ParameterSpec kContractionSteps = {"steps", ParameterSpec::Kind::integer,
+                                             1,       1000,
+                                             5,       "most directions that the smoothing follows"};
+constexpr std::array kContractionInside = {kContractionLeastRatio, kContractionSteps};
+constexpr std::array kContractionAtSurface = {
+    kContractionLeastRatio,
+    ParameterSpec{"tries", ParameterSpec::Kind::integer, 1, 100, 3,
+                  "most neighbours that are tried"},
+    kContractionSteps};
 
 }  // namespace
 
 const OperatorInfo& edge_contraction_info() {
-  static const OperatorInfo kInfo = {
+  static constexpr OperatorInfo kInfo = describe<EdgeContraction<Where::inside>>(
       "edge_contraction", TargetKind::vertex,
-      "merge a vertex into its best neighbour and smooth that", kParameters,
-      [](const ParameterValues& values) -> std::unique_ptr<Operator> {
-        return std::make_unique<EdgeContraction>(values);
-      }};
+      "merge a vertex into its best neighbour and smooth that", kContractionInside);
+  return kInfo;
+}
+
+const OperatorInfo& surface_contraction_info() {
+  static constexpr OperatorInfo kInfo = describe<EdgeContraction<Where::at_surface>>(
+      "surface_contraction", TargetKind::vertex,
+      "merge a vertex of a surface that may change into a neighbour there and smooth that",
+      kContractionAtSurface, true);
   return kInfo;
 }
 

@@ -5,14 +5,16 @@
 //     / a,b \      ->      /  ab \         (a, b, p, q), (a, b, q, r), (a, b, r, p).
 //    /       \            / /   \ \    One face gives way to three.
 //   p---------q          p---------q
-#include "ops/flip_2_3.h"
-
 #include <algorithm>
+
+#include "ops/builtin_operators.h"
 
 namespace tetmend {
 
 namespace {
 
+/// Target: a face. Replaces its two tets by three around the edge between their apexes
+/// ([chen, Fig. 1a]). Refuses boundary and constrained faces.
 class Flip23 final : public OperatorOf<Replacement> {
  public:
   explicit Flip23(const ParameterValues&) : OperatorOf(flip_2_3_info()) {}
@@ -50,14 +52,8 @@ class Flip23 final : public OperatorOf<Replacement> {
 }  // namespace
 
 const OperatorInfo& flip_2_3_info() {
-  static const OperatorInfo kInfo = {
-      "flip_2_3",
-      TargetKind::face,
-      "replace the two tets of a face by three",
-      {},
-      [](const ParameterValues& values) -> std::unique_ptr<Operator> {
-        return std::make_unique<Flip23>(values);
-      }};
+  static constexpr OperatorInfo kInfo =
+      describe<Flip23>("flip_2_3", TargetKind::face, "replace the two tets of a face by three");
   return kInfo;
 }
 

@@ -5,32 +5,34 @@
 //     /  ab \      ->      / a,b \       Only the edge is gone,
 //    / /   \ \            /       \      the outer faces stay.
 //   p---------q          p---------q
-#include "ops/flip_3_2.h"
-
 #include <algorithm>
 
+#include "ops/builtin_operators.h"
 #include "ops/shell_search.h"
 
 namespace tetmend {
 
 namespace {
 
-struct State {
+struct Flip32State {
   Shell shell;
   Replacement replacement;
 };
 
-class Flip32 final : public OperatorOf<State> {
+/// Target: an edge. Replaces the three tets of its shell by the two at the triangle of its ring
+/// ([chen, Fig. 1a]). Refuses boundary and constrained edges, and shells of another degree.
+class Flip32 final : public OperatorOf<Flip32State> {
  public:
   explicit Flip32(const ParameterValues&) : OperatorOf(flip_3_2_info()) {}
 
  protected:
-  Verdict precondition(const OperatorContext& context, Target target, State& state) const override {
+  Verdict precondition(const OperatorContext& context, Target target,
+                       Flip32State& state) const override {
     const Verdict verdict = find_searchable_shell(context, target.edge(), state.shell);
     if (verdict != Verdict::accepted) return verdict;
     return state.shell.degree == 3 ? Verdict::accepted : Verdict::not_applicable;
   }
-  Verdict evaluate(OperatorContext& context, Target, State& state) const override {
+  Verdict evaluate(OperatorContext& context, Target, Flip32State& state) const override {
     const TetMesh& mesh = context.mesh;
     const Shell& shell = state.shell;
     const auto& ring = shell.ring;
@@ -45,7 +47,8 @@ class Flip32 final : public OperatorOf<State> {
     }
     return Verdict::accepted;
   }
-  Verdict apply(OperatorContext&, Target, Transaction& transaction, State& state) const override {
+  Verdict apply(OperatorContext&, Target, Transaction& transaction,
+                Flip32State& state) const override {
     return state.replacement.make(transaction);
   }
 };
@@ -53,14 +56,8 @@ class Flip32 final : public OperatorOf<State> {
 }  // namespace
 
 const OperatorInfo& flip_3_2_info() {
-  static const OperatorInfo kInfo = {
-      "flip_3_2",
-      TargetKind::edge,
-      "replace the three tets of an edge by two",
-      {},
-      [](const ParameterValues& values) -> std::unique_ptr<Operator> {
-        return std::make_unique<Flip32>(values);
-      }};
+  static constexpr OperatorInfo kInfo =
+      describe<Flip32>("flip_3_2", TargetKind::edge, "replace the three tets of an edge by two");
   return kInfo;
 }
 

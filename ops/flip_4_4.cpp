@@ -4,11 +4,10 @@
 //   |  ab   |   ->    |  .'   |    or   |   '.  |       (a, p, q, r), (p, q, r, b),
 //   | /   \ |         |.'     |         |     '.|       (a, p, r, s), (p, r, s, b),
 //   p-------q         p-------q         p-------q     or qs.
-#include "ops/flip_4_4.h"
-
 #include <algorithm>
 #include <array>
 
+#include "ops/builtin_operators.h"
 #include "ops/shell_search.h"
 
 namespace tetmend {
@@ -34,22 +33,26 @@ FourQualities quality_vector(const TetMesh& mesh, const FourTets& tets) {
   return qualities;
 }
 
-struct State {
+struct Flip44State {
   Shell shell;
   Replacement replacement;
 };
 
-class Flip44 final : public OperatorOf<State> {
+/// Target: an edge. Replaces the four tets of its shell by four around one of the two diagonals of
+/// its ring, the one with the better quality vector ([chen, Fig. 1b]). Refuses boundary and
+/// constrained edges, and shells of another degree.
+class Flip44 final : public OperatorOf<Flip44State> {
  public:
   explicit Flip44(const ParameterValues&) : OperatorOf(flip_4_4_info()) {}
 
  protected:
-  Verdict precondition(const OperatorContext& context, Target target, State& state) const override {
+  Verdict precondition(const OperatorContext& context, Target target,
+                       Flip44State& state) const override {
     const Verdict verdict = find_searchable_shell(context, target.edge(), state.shell);
     if (verdict != Verdict::accepted) return verdict;
     return state.shell.degree == 4 ? Verdict::accepted : Verdict::not_applicable;
   }
-  Verdict evaluate(OperatorContext& context, Target, State& state) const override {
+  Verdict evaluate(OperatorContext& context, Target, Flip44State& state) const override {
     const TetMesh& mesh = context.mesh;
     const Shell& shell = state.shell;
     FourTets best = tets_around_diagonal(shell, 0);
@@ -66,7 +69,8 @@ class Flip44 final : public OperatorOf<State> {
     state.replacement.new_tets.assign(best.begin(), best.end());
     return Verdict::accepted;
   }
-  Verdict apply(OperatorContext&, Target, Transaction& transaction, State& state) const override {
+  Verdict apply(OperatorContext&, Target, Transaction& transaction,
+                Flip44State& state) const override {
     return state.replacement.make(transaction);
   }
 };
@@ -74,14 +78,8 @@ class Flip44 final : public OperatorOf<State> {
 }  // namespace
 
 const OperatorInfo& flip_4_4_info() {
-  static const OperatorInfo kInfo = {
-      "flip_4_4",
-      TargetKind::edge,
-      "replace the four tets of an edge by four at another diagonal",
-      {},
-      [](const ParameterValues& values) -> std::unique_ptr<Operator> {
-        return std::make_unique<Flip44>(values);
-      }};
+  static constexpr OperatorInfo kInfo = describe<Flip44>(
+      "flip_4_4", TargetKind::edge, "replace the four tets of an edge by four at another diagonal");
   return kInfo;
 }
 

@@ -1,17 +1,16 @@
 // SPDX-License-Identifier: MIT
-#include "ops/joint_smoothing.h"
-
 #include <algorithm>
 
 #include "kernel/index_set.h"
 #include "kernel/star.h"
+#include "ops/builtin_operators.h"
 #include "search/patch_optimiser.h"
 
 namespace tetmend {
 
 namespace {
 
-struct State {
+struct JointSmoothingState {
   PatchOptimiser patch;
   std::vector<VertexMove> moves;
   std::vector<VertexHandle> free;
@@ -28,7 +27,11 @@ Judge judge_for(const ParameterValues& values) {
   return Judge::fair({.desperate = values.real("desperate"), .price = 0});
 }
 
-class JointSmoothing final : public OperatorOf<State> {
+/// Target: a tet. Moves its free vertices together to where the tets around them lack less
+/// (PatchOptimiser). This is for tets that no vertex can improve alone. Refuses as `constrained` a
+/// tet without a free vertex. Refuses as `not_applicable` a tet around which all is good, or with
+/// too many tets around it.
+class JointSmoothing final : public OperatorOf<JointSmoothingState> {
  public:
   explicit JointSmoothing(const ParameterValues& values)
       : OperatorOf(joint_smoothing_info(), judge_for(values)),
@@ -39,7 +42,8 @@ class JointSmoothing final : public OperatorOf<State> {
   }
 
  protected:
-  Verdict precondition(const OperatorContext& context, Target target, State&) const override {
+  Verdict precondition(const OperatorContext& context, Target target,
+                       JointSmoothingState&) const override {
     const TetMesh& mesh = context.mesh;
     const TetVertices& corners = mesh.vertices(target.tet());
     const bool all_fixed = std::all_of(corners.begin(), corners.end(),
@@ -47,7 +51,8 @@ class JointSmoothing final : public OperatorOf<State> {
     return all_fixed ? Verdict::constrained : Verdict::accepted;
   }
 
-  Verdict evaluate(OperatorContext& context, Target target, State& state) const override {
+  Verdict evaluate(OperatorContext& context, Target target,
+                   JointSmoothingState& state) const override {
     std::size_t number = 0;
     const Verdict verdict = load_patch(context, target.tet(), number, state);
     if (verdict != Verdict::accepted) return verdict;
@@ -61,7 +66,8 @@ class JointSmoothing final : public OperatorOf<State> {
     return patch.total_deficit() < deficit_limit ? Verdict::accepted : Verdict::no_improvement;
   }
 
-  Verdict apply(OperatorContext&, Target, Transaction& transaction, State& state) const override {
+  Verdict apply(OperatorContext&, Target, Transaction& transaction,
+                JointSmoothingState& state) const override {
     for (std::size_t v = 0; v < state.moves.size(); ++v) {
       state.moves[v].point = state.patch.point(v);
     }
@@ -80,7 +86,7 @@ class JointSmoothing final : public OperatorOf<State> {
   /// Puts the free vertices and their links into the moves, and the tets around them into the
   /// patch, where t has the given number then.
   Verdict load_patch(OperatorContext& context, TetHandle t, std::size_t& number,
-                     State& state) const {
+                     JointSmoothingState& state) const {
     const TetMesh& mesh = context.mesh;
     auto& free = state.free;
     free.clear();
@@ -108,7 +114,7 @@ class JointSmoothing final : public OperatorOf<State> {
   }
 
   static Verdict load_tets(OperatorContext& context, TetHandle t, std::size_t& t_number,
-                           State& state) {
+                           JointSmoothingState& state) {
     const TetMesh& mesh = context.mesh;
     const auto& free = state.free;
     const auto number = [&](VertexHandle v) {
@@ -152,7 +158,7 @@ class JointSmoothing final : public OperatorOf<State> {
   PatchOptimiser::Limits limits_;
 };
 
-constexpr std::array<ParameterSpec, 5> kParameters = {{
+constexpr std::array<ParameterSpec, 5> kJointSmoothingParameters = {{
     {"rings", ParameterSpec::Kind::integer, 0, 1, 0, "1: the vertices next to them move as well"},
     {"desperate", ParameterSpec::Kind::real, -1, 2, kDesperate,
      "below this worst quality, new bad tets are no reason to refuse"},
@@ -167,11 +173,9 @@ constexpr std::array<ParameterSpec, 5> kParameters = {{
 }  // namespace
 
 const OperatorInfo& joint_smoothing_info() {
-  static const OperatorInfo kInfo = {
-      "joint_smoothing", TargetKind::tet, "move all free vertices of a tet together", kParameters,
-      [](const ParameterValues& values) -> std::unique_ptr<Operator> {
-        return std::make_unique<JointSmoothing>(values);
-      }};
+  static constexpr OperatorInfo kInfo = describe<JointSmoothing>(
+      "joint_smoothing", TargetKind::tet, "move all free vertices of a tet together",
+      kJointSmoothingParameters);
   return kInfo;
 }
 

@@ -1,21 +1,23 @@
 // SPDX-License-Identifier: MIT
-#include "ops/mean_smoothing.h"
-
 #include "kernel/star.h"
+#include "ops/builtin_operators.h"
+#include "ops/where.h"
 #include "search/mean_ratio_ball.h"
 
 namespace tetmend {
 
 namespace {
 
-struct State {
+struct MeanSmoothingState {
   MeanRatioBall ball;
   std::vector<HalfFace> link;
   Point way = Point::Zero();  // from the place before to the best
   double share = 1;           // of the way that is proposed
 };
 
-class MeanSmoothing final : public OperatorOf<State> {
+/// Target: vertex. Made for Judge::raises_mean, which polish() sets. Its own judge is strict, like
+/// that of others: then it may only do what also helps the worst.
+class MeanSmoothing final : public OperatorOf<MeanSmoothingState> {
  public:
   explicit MeanSmoothing(const ParameterValues& values)
       : OperatorOf(mean_smoothing_info()),
@@ -23,14 +25,13 @@ class MeanSmoothing final : public OperatorOf<State> {
         steps_(values.integer("steps")) {}
 
  protected:
-  Verdict precondition(const OperatorContext& context, Target target, State&) const override {
-    const VertexHandle v = target.vertex();
-    if (context.mesh.is_deleted(v) || !context.mesh.tet_of(v).is_valid())
-      return Verdict::not_applicable;
-    return context.mesh.is_fixed(v) ? Verdict::constrained : Verdict::accepted;
+  Verdict precondition(const OperatorContext& context, Target target,
+                       MeanSmoothingState&) const override {
+    return check_vertex(context.mesh, target.vertex(), Where::inside);
   }
 
-  Verdict evaluate(OperatorContext& context, Target target, State& state) const override {
+  Verdict evaluate(OperatorContext& context, Target target,
+                   MeanSmoothingState& state) const override {
     const TetMesh& mesh = context.mesh;
     const VertexHandle v = target.vertex();
     const StarKind kind = find_star(mesh, v, context.workspace, state.link);
@@ -49,13 +50,13 @@ class MeanSmoothing final : public OperatorOf<State> {
   }
 
   Verdict apply(OperatorContext& context, Target target, Transaction& transaction,
-                State& state) const override {
+                MeanSmoothingState& state) const override {
     const Point goal = context.mesh.point(target.vertex()) + state.share * state.way;
     return to_verdict(transaction.move_vertex(target.vertex(), goal, state.link));
   }
 
   /// Closer to where it was: a tet may have fallen below the goal on the way.
-  bool propose_next(OperatorContext&, Target, State& state) const override {
+  bool propose_next(OperatorContext&, Target, MeanSmoothingState& state) const override {
     constexpr double kLeastShare = 0.25;
     state.share /= 2;
     return state.share >= kLeastShare;
@@ -66,7 +67,7 @@ class MeanSmoothing final : public OperatorOf<State> {
   int steps_;
 };
 
-constexpr std::array<ParameterSpec, 2> kParameters = {{
+constexpr std::array<ParameterSpec, 2> kMeanSmoothingParameters = {{
     {"least_gain", ParameterSpec::Kind::real, 1e-6, 1, 2e-3,
      "least gain of the mean over the ball"},
     {"steps", ParameterSpec::Kind::integer, 1, 100, 2, "most steps of Newton's method"},
@@ -75,12 +76,9 @@ constexpr std::array<ParameterSpec, 2> kParameters = {{
 }  // namespace
 
 const OperatorInfo& mean_smoothing_info() {
-  static const OperatorInfo kInfo = {
+  static constexpr OperatorInfo kInfo = describe<MeanSmoothing>(
       "mean_smoothing", TargetKind::vertex,
-      "move a vertex to where the tets around it are round on average", kParameters,
-      [](const ParameterValues& values) -> std::unique_ptr<Operator> {
-        return std::make_unique<MeanSmoothing>(values);
-      }};
+      "move a vertex to where the tets around it are round on average", kMeanSmoothingParameters);
   return kInfo;
 }
 

@@ -4,10 +4,9 @@
 //     p --- F --- q ..w    share their fourth vertex w. Then (p, w, q) is sandwiched as well, and
 //          \ | /           w enters the polygon between p and q. A vertex enters once, so the faces
 //            b             stay a disc without inner vertices.
-#include "ops/multi_face_removal.h"
-
 #include <algorithm>
 
+#include "ops/builtin_operators.h"
 #include "ops/shell_search.h"
 
 namespace tetmend {
@@ -58,23 +57,29 @@ VertexHandle fourth(const TetMesh& mesh, TetHandle t, VertexHandle x, VertexHand
   return {};
 }
 
-struct State {
+struct FaceRemovalState {
   CoveringSearch search;
   Replacement replacement;
 };
 
-class MultiFaceRemoval final : public OperatorOf<State> {
+/// Target: a face. It and the faces connected to it that both apexes a and b of its two tets see
+/// form a polygon. Their tets are replaced by the best covering of the virtual shell of ab: with a
+/// core (ab appears) or without (re-triangulation) ([chen, 5.4]; [shewchuk_two]). Refuses boundary
+/// and constrained faces. Cost: O(m^3) for m polygon vertices.
+class MultiFaceRemoval final : public OperatorOf<FaceRemovalState> {
  public:
   explicit MultiFaceRemoval(const ParameterValues& values)
       : OperatorOf(multi_face_removal_info()),
         max_polygon_(static_cast<unsigned>(values.integer("max_polygon"))) {}
 
  protected:
-  Verdict precondition(const OperatorContext& context, Target target, State&) const override {
+  Verdict precondition(const OperatorContext& context, Target target,
+                       FaceRemovalState&) const override {
     return context.mesh.is_free(target.face()) ? Verdict::accepted : Verdict::constrained;
   }
 
-  Verdict evaluate(OperatorContext& context, Target target, State& state) const override {
+  Verdict evaluate(OperatorContext& context, Target target,
+                   FaceRemovalState& state) const override {
     const TetMesh& mesh = context.mesh;
     auto& [old_tets, new_tets] = state.replacement;
     const HalfFace twin = mesh.twin(target.face());
@@ -101,7 +106,8 @@ class MultiFaceRemoval final : public OperatorOf<State> {
     return Verdict::accepted;
   }
 
-  Verdict apply(OperatorContext&, Target, Transaction& transaction, State& state) const override {
+  Verdict apply(OperatorContext&, Target, Transaction& transaction,
+                FaceRemovalState& state) const override {
     return state.replacement.make(transaction);
   }
 
@@ -154,7 +160,7 @@ class MultiFaceRemoval final : public OperatorOf<State> {
   unsigned max_polygon_;
 };
 
-constexpr std::array<ParameterSpec, 1> kParameters = {{
+constexpr std::array<ParameterSpec, 1> kFaceRemovalParameters = {{
     {"max_polygon", ParameterSpec::Kind::integer, 3, kMaxSearchRing, 8,
      "most vertices of the polygon of sandwiched faces"},
 }};
@@ -162,11 +168,9 @@ constexpr std::array<ParameterSpec, 1> kParameters = {{
 }  // namespace
 
 const OperatorInfo& multi_face_removal_info() {
-  static const OperatorInfo kInfo = {
+  static constexpr OperatorInfo kInfo = describe<MultiFaceRemoval>(
       "multi_face_removal", TargetKind::face, "remove the faces sandwiched between two vertices",
-      kParameters, [](const ParameterValues& values) -> std::unique_ptr<Operator> {
-        return std::make_unique<MultiFaceRemoval>(values);
-      }};
+      kFaceRemovalParameters);
   return kInfo;
 }
 

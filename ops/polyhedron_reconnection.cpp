@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
 //   evaluate: grow to the full size, only to know that nobody else is in the way; start again
 //   apply:    search, replace, smooth; after a refusal, grow and try again
-#include "ops/polyhedron_reconnection.h"
-
 #include <algorithm>
 
+#include "ops/builtin_operators.h"
 #include "ops/refilling.h"
-#include "ops/smoothing.h"
+#include "ops/vertex_ball.h"
 
 namespace tetmend {
 
@@ -21,12 +20,24 @@ Point mean(const TetMesh& mesh, std::span<const VertexHandle> vertices) {
   return sum / static_cast<double>(vertices.size());
 }
 
-struct State {
+struct ReconnectionState {
   RefillingState refilling;
   BallState ball;
 };
 
-class PolyhedronReconnection final : public OperatorOf<State> {
+/// Target: a tet. Grows a polyhedron around it, vertex by vertex, and searches its best
+/// tetrahedralisation until one is better ([liu_spr]; the growing cavity is that of
+/// [marot_quality]). By itself it keeps all vertices where they are. With `relax` it takes any
+/// tetrahedralisation without the target, and smooths the vertices of the polyhedron before the
+/// change is judged. With `insert` there is one vertex more, and the search finds the best cavity
+/// for it. With `remove`, vertices inside may vanish.
+///
+/// A change is kept if the quality vector is better, there are no more bad tets, and they lack no
+/// more in sum. The last two do not count when the old worst tet is desperate and gains 0.002 for
+/// each new bad one. Refuses as `no_improvement` when no size brings that, as `budget_spent` when
+/// the search of the largest was cut short, as `not_applicable` where tets overlap. Cost: a search
+/// for each size, see PolyhedronSearch, and with `relax` the smoothing of its vertices.
+class PolyhedronReconnection final : public OperatorOf<ReconnectionState> {
  public:
   explicit PolyhedronReconnection(const ParameterValues& values)
       : OperatorOf(polyhedron_reconnection_info(),
@@ -41,11 +52,13 @@ class PolyhedronReconnection final : public OperatorOf<State> {
         max_nodes_(static_cast<unsigned>(values.integer("max_nodes"))) {}
 
  protected:
-  Verdict precondition(const OperatorContext& context, Target target, State&) const override {
+  Verdict precondition(const OperatorContext& context, Target target,
+                       ReconnectionState&) const override {
     return context.mesh.is_frozen(target.tet()) ? Verdict::constrained : Verdict::accepted;
   }
 
-  Verdict evaluate(OperatorContext& context, Target target, State& state) const override {
+  Verdict evaluate(OperatorContext& context, Target target,
+                   ReconnectionState& state) const override {
     auto& [polyhedron, search, replacement] = state.refilling;
     polyhedron.start(context.mesh, target.tet());
     while (grow(context, state)) {
@@ -60,7 +73,7 @@ class PolyhedronReconnection final : public OperatorOf<State> {
 
   /// Fills the polyhedron as it is now.
   Verdict apply(OperatorContext& context, Target, Transaction& transaction,
-                State& state) const override {
+                ReconnectionState& state) const override {
     const TetMesh& mesh = context.mesh;
     auto& [polyhedron, search, replacement] = state.refilling;
     VertexHandle added;
@@ -79,14 +92,14 @@ class PolyhedronReconnection final : public OperatorOf<State> {
     return verdict;
   }
 
-  bool propose_next(OperatorContext& context, Target, State& state) const override {
+  bool propose_next(OperatorContext& context, Target, ReconnectionState& state) const override {
     int grown = 0;
     while (grown < step_ && grow(context, state)) ++grown;
     return grown > 0;
   }
 
  private:
-  bool grow(OperatorContext& context, State& state) const {
+  bool grow(OperatorContext& context, ReconnectionState& state) const {
     return state.refilling.polyhedron.grow(context.mesh, context.workspace, max_vertices_);
   }
 
@@ -122,7 +135,7 @@ class PolyhedronReconnection final : public OperatorOf<State> {
   }
 
   void smooth(OperatorContext& context, Transaction& transaction, VertexHandle added,
-              State& state) const {
+              ReconnectionState& state) const {
     for (int round = 0; round < rounds_; ++round) {
       if (added.is_valid()) climb(context, transaction, added, limits_, state.ball);
       for (const VertexHandle v : state.refilling.polyhedron.vertices()) {
@@ -142,7 +155,7 @@ class PolyhedronReconnection final : public OperatorOf<State> {
   BallOptimiser::Limits limits_;
 };
 
-constexpr std::array<ParameterSpec, 9> kParameters = {{
+constexpr std::array<ParameterSpec, 9> kReconnectionParameters = {{
     {"insert", ParameterSpec::Kind::flag, 0, 1, 0,
      "with a new vertex, at the mean of those of the polyhedron"},
     {"remove", ParameterSpec::Kind::flag, 0, 1, 0, "vertices inside the polyhedron may vanish"},
@@ -165,12 +178,10 @@ constexpr std::array<ParameterSpec, 9> kParameters = {{
 }  // namespace
 
 const OperatorInfo& polyhedron_reconnection_info() {
-  static const OperatorInfo kInfo = {
+  static constexpr OperatorInfo kInfo = describe<PolyhedronReconnection>(
       "polyhedron_reconnection", TargetKind::tet,
-      "replace a small polyhedron around a tet by its best tetrahedralisation", kParameters,
-      [](const ParameterValues& values) -> std::unique_ptr<Operator> {
-        return std::make_unique<PolyhedronReconnection>(values);
-      }};
+      "replace a small polyhedron around a tet by its best tetrahedralisation",
+      kReconnectionParameters);
   return kInfo;
 }
 

@@ -7,11 +7,10 @@
 //             reduce(e', that face, level + 1)
 //             when the shell of e became smaller: next round of the loop
 //           give up when no face helped
-#include "ops/recursive_shell_transformation.h"
-
 #include <algorithm>
 #include <optional>
 
+#include "ops/builtin_operators.h"
 #include "ops/shell_search.h"
 #include "trace/algorithm.h"
 
@@ -21,7 +20,7 @@ namespace {
 
 constexpr int kDeepest = 16;
 
-struct Limits {
+struct RecursionLimits {
   int max_level;
   int budget;
   bool reflex_only;
@@ -30,7 +29,7 @@ struct Limits {
 
 class Recursion {
  public:
-  Recursion(OperatorContext& context, const Limits& limits, ShellState& state)
+  Recursion(OperatorContext& context, const RecursionLimits& limits, ShellState& state)
       : context_(context),
         mesh_(context.mesh),
         limits_(limits),
@@ -67,7 +66,7 @@ class Recursion {
 
   OperatorContext& context_;
   const TetMesh& mesh_;
-  const Limits& limits_;
+  const RecursionLimits& limits_;
   ShellState& state_;
   Judge judge_;
   int budget_;
@@ -237,6 +236,9 @@ Verdict Recursion::reduce(State state, Shell& shell, VertexHandle apex, int leve
   return state == State::blocked ? Verdict::constrained : Verdict::accepted;
 }
 
+/// Target: an edge. Transforms its shell. While that is not fully reduced, removes supporting faces
+/// by recursive calls on their reflex link edges ([chen, Alg. 4, 5.1-5.3]). Each transformation
+/// improves the quality vector of its own shell, so partial success is kept.
 class RecursiveShellTransformation final : public OperatorOf<ShellState> {
  public:
   explicit RecursiveShellTransformation(const ParameterValues& values)
@@ -264,10 +266,10 @@ class RecursiveShellTransformation final : public OperatorOf<ShellState> {
   }
 
  private:
-  Limits limits_;
+  RecursionLimits limits_;
 };
 
-constexpr std::array<ParameterSpec, 4> kParameters = {{
+constexpr std::array<ParameterSpec, 4> kRecursionParameters = {{
     {"max_level", ParameterSpec::Kind::integer, 0, kDeepest - 1, 5,
      "deepest recursion level; 0 means no recursion"},
     {"budget", ParameterSpec::Kind::integer, 1, 1e6, 400,
@@ -280,12 +282,10 @@ constexpr std::array<ParameterSpec, 4> kParameters = {{
 }  // namespace
 
 const OperatorInfo& recursive_shell_transformation_info() {
-  static const OperatorInfo kInfo = {
+  static constexpr OperatorInfo kInfo = describe<RecursiveShellTransformation>(
       "recursive_shell_transformation", TargetKind::edge,
       "remove an edge by shell transformations on it and, recursively, on edges around it",
-      kParameters, [](const ParameterValues& values) -> std::unique_ptr<Operator> {
-        return std::make_unique<RecursiveShellTransformation>(values);
-      }};
+      kRecursionParameters);
   return kInfo;
 }
 

@@ -4,7 +4,6 @@
 #include <algorithm>
 
 #include "kernel/star.h"
-#include "ops/surface_vertex.h"
 
 namespace tetmend {
 
@@ -32,17 +31,13 @@ void reconnect(OperatorContext& context, VertexHandle v, RelaxationState& state)
 }  // namespace
 
 void relax(OperatorContext& context, Transaction& transaction, VertexHandle v,
-           const BallOptimiser::Limits& limits, RelaxationState& state, bool at_surface) {
+           const BallOptimiser::Limits& limits, RelaxationState& state, Where where) {
   for (int round = 0; round < 2; ++round) {
     const auto ring = one_ring(context.mesh, v, context.workspace);
     state.neighbours.assign(ring.begin(), ring.end());
     state.neighbours.push_back(v);
     for (const VertexHandle w : state.neighbours) {
-      if (at_surface) {
-        climb_at_surface(context, transaction, w, limits, state.ball);
-      } else {
-        climb(context, transaction, w, limits, state.ball);
-      }
+      climb(context, transaction, w, limits, state.ball, where);
     }
     if (round > 0) break;
     reconnect(context, v, state);

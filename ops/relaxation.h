@@ -4,7 +4,7 @@
 #pragma once
 
 #include "ops/shell_search.h"
-#include "ops/smoothing.h"
+#include "ops/vertex_ball.h"
 
 namespace tetmend {
 
@@ -18,8 +18,8 @@ struct RelaxationState {
 /// Smooths around a new vertex, reconnects its bad tets, smooths again; ends when the second half
 /// cannot make up for what the worst tet lost. Precondition: the star of the vertex lies in the
 /// territory. Cost: two smoothings of each vertex of its one-ring.
-/// @param at_surface also vertices of a surface that may change
+/// @param where at the surface also vertices of a surface that may change
 void relax(OperatorContext& context, Transaction& transaction, VertexHandle v,
-           const BallOptimiser::Limits& limits, RelaxationState& state, bool at_surface = false);
+           const BallOptimiser::Limits& limits, RelaxationState& state, Where where);
 
 }  // namespace tetmend

@@ -3,32 +3,36 @@
 //      |  \     /  |            faces (a, b, p_0) and (a, b, p_m) become (a, p_m, p_0) and
 //      |    \ /    |     ->     (b, p_0, p_m). The tets are those of the best triangulation of the
 //     p_m -- ab -- p_0          polygon p_0 ... p_m, above and below, as in edge removal.
-#include "ops/surface_edge_removal.h"
-
 #include <algorithm>
 
 #include "kernel/surface_shell.h"
+#include "ops/builtin_operators.h"
 #include "ops/shell_search.h"
-#include "ops/surface_replacement.h"
+#include "ops/where.h"
 
 namespace tetmend {
 
 namespace {
 
-struct State {
+struct SurfaceRemovalState {
   SurfaceShell shell;
   CoveringSearch search;
   Covering covering;
   std::vector<TetVertices> side_tets;
-  SurfaceReplacement replacement;
+  LabelledReplacement replacement;
 };
 
-class SurfaceEdgeRemoval final : public OperatorOf<State> {
+/// Target: an edge. Replaces the shell of an edge inside a patch by the best complete covering of
+/// its open ring, as edge removal does inside: the two faces of the surface at the edge give way to
+/// the two at the chord that closes the ring. Between two labels the shells of both sides have the
+/// same chord. Refuses feature edges.
+class SurfaceEdgeRemoval final : public OperatorOf<SurfaceRemovalState> {
  public:
   explicit SurfaceEdgeRemoval(const ParameterValues&) : OperatorOf(surface_edge_removal_info()) {}
 
  protected:
-  Verdict precondition(const OperatorContext& context, Target target, State& state) const override {
+  Verdict precondition(const OperatorContext& context, Target target,
+                       SurfaceRemovalState& state) const override {
     const TetMesh& mesh = context.mesh;
     const auto [a, b] = mesh.vertices(target.edge());
     const Verdict verdict = find_surface_edge(context, target.edge(), state.shell);
@@ -43,7 +47,7 @@ class SurfaceEdgeRemoval final : public OperatorOf<State> {
     return Verdict::accepted;
   }
 
-  Verdict evaluate(OperatorContext& context, Target, State& state) const override {
+  Verdict evaluate(OperatorContext& context, Target, SurfaceRemovalState& state) const override {
     const TetMesh& mesh = context.mesh;
     const SurfaceShell& shell = state.shell;
     state.replacement.clear();
@@ -60,13 +64,15 @@ class SurfaceEdgeRemoval final : public OperatorOf<State> {
     return Verdict::accepted;
   }
 
-  Verdict apply(OperatorContext&, Target, Transaction& transaction, State& state) const override {
-    return state.replacement.make(transaction);
+  Verdict apply(OperatorContext&, Target, Transaction& transaction,
+                SurfaceRemovalState& state) const override {
+    return state.replacement.make(transaction, Where::at_surface);
   }
 
  private:
   /// The best covering of a side, as new tets; false if there is none above the floor.
-  static bool cover(const TetMesh& mesh, const ShellSide& side, Quality floor, State& state) {
+  static bool cover(const TetMesh& mesh, const ShellSide& side, Quality floor,
+                    SurfaceRemovalState& state) {
     const unsigned m = side.count + 1;
     std::array<Point, kMaxSearchRing> ring;
     std::array<Quality, kMaxSearchRing> none{};  // of the core, which there is not
@@ -93,14 +99,9 @@ class SurfaceEdgeRemoval final : public OperatorOf<State> {
 }  // namespace
 
 const OperatorInfo& surface_edge_removal_info() {
-  static const OperatorInfo kInfo = {
-      "surface_edge_removal",
-      TargetKind::edge,
-      "remove an edge of a surface that may change: best triangulation of its open ring",
-      {},
-      [](const ParameterValues& values) -> std::unique_ptr<Operator> {
-        return std::make_unique<SurfaceEdgeRemoval>(values);
-      }};
+  static constexpr OperatorInfo kInfo = describe<SurfaceEdgeRemoval>(
+      "surface_edge_removal", TargetKind::edge,
+      "remove an edge of a surface that may change: best triangulation of its open ring");
   return kInfo;
 }
 

@@ -6,16 +6,25 @@
 //    \     .-' /          \   / \   /      walk to the tet that holds v -> add neighbours
 //     \ .-'   /            \ /   \ /       -> drop tets until v sees all outer faces
 //      s-----t              s-----t
-#include "ops/vertex_insertion.h"
-
 #include <algorithm>
 #include <array>
 
+#include "kernel/index_set.h"
+#include "ops/builtin_operators.h"
 #include "ops/cavity.h"
+#include "ops/vertex_ball.h"
+#include "search/mean_ratio_ball.h"
 
 namespace tetmend {
 
 namespace {
+
+struct VertexInsertionState {
+  BallState ball;  // link: the outer faces of the cavity
+  MeanRatioBall mean_ball;
+  IndexSet inside;
+  Replacement replacement;
+};
 
 /// Positive if the point lies on the inner side of the face.
 double height_over(const TetMesh& mesh, HalfFace f, const Point& point) {
@@ -48,7 +57,7 @@ bool is_wall(const TetMesh& mesh, HalfFace f) {
 }
 
 /// The vertex behind a face that is no wall.
-VertexHandle apex_behind(const TetMesh& mesh, HalfFace f) {
+VertexHandle apex_across(const TetMesh& mesh, HalfFace f) {
   const HalfFace twin = mesh.twin(f);
   return mesh.vertices(twin.tet())[twin.face()];
 }
@@ -74,7 +83,7 @@ Verdict locate_point(OperatorContext& context, TetHandle start, VertexInsertionS
       return Verdict::accepted;
     }
     if (is_wall(mesh, way_out)) return Verdict::constrained;
-    if (!context.workspace.holds(apex_behind(mesh, way_out))) return Verdict::deferred;
+    if (!context.workspace.holds(apex_across(mesh, way_out))) return Verdict::deferred;
     t = mesh.twin(way_out).tet();
   }
   return Verdict::not_applicable;
@@ -94,7 +103,7 @@ Verdict grow_cavity(OperatorContext& context, std::size_t max_tets, VertexInsert
       if (is_wall(mesh, face)) continue;
       const TetHandle next = mesh.twin(face).tet();
       if (inside.contains(next.index())) continue;
-      if (!context.workspace.holds(apex_behind(mesh, face))) return Verdict::deferred;
+      if (!context.workspace.holds(apex_across(mesh, face))) return Verdict::deferred;
       if (!is_in_circumsphere(mesh, next, state.ball.point)) continue;
       inside.insert(next.index());
       cavity.push_back(next);
@@ -135,32 +144,58 @@ Verdict trim_cavity(const TetMesh& mesh, VertexInsertionState& state) {
   return Verdict::accepted;
 }
 
-}  // namespace
+/// Target: a tet. Inserts a vertex at a place that the derived class names, as in Delaunay
+/// refinement ([chen, 2.3]). It replaces the tets around whose circumspheres hold the vertex,
+/// except where the vertex would not see the faces behind them. The cavity crosses no constrained
+/// face and holds `max_tets` at most. With `smooth`, the vertex then moves to where the worst new
+/// tet is best.
+///
+/// Refuses as `not_applicable` a target that is not certified positive, or whose vertex lies more
+/// than 64 tets away. Refuses as `constrained` when boundary or a constrained face parts the target
+/// from the vertex, or when the cavity would swallow a fixed vertex. Refuses as `no_improvement`
+/// when the target would stay, or when the worst tet would be no better, or only at the price of
+/// many new bad tets (as edge_split). Cost: the way to the vertex, the square of the size of the
+/// cavity at worst, and the smoothing of one vertex.
+class VertexInsertion : public OperatorOf<VertexInsertionState> {
+ public:
+  VertexInsertion(const OperatorInfo& info, const ParameterValues& values);
+
+ protected:
+  /// Where the vertex goes. The tet is certified positive.
+  virtual Point place(const TetMesh& mesh, TetHandle t) const = 0;
+
+  Verdict precondition(const OperatorContext& context, Target target,
+                       VertexInsertionState& state) const final;
+  Verdict evaluate(OperatorContext& context, Target target,
+                   VertexInsertionState& state) const final;
+  Verdict apply(OperatorContext& context, Target target, Transaction& transaction,
+                VertexInsertionState& state) const final;
+
+ private:
+  /// Moves the vertex to where the new tets are round on average. False if their mean ratios, each less
+  /// the usual one, have no larger sum than those of the cavity.
+  static bool raises_mean(const TetMesh& mesh, double usual, VertexInsertionState& state);
+
+  std::size_t max_tets_;
+  bool smooth_;
+  BallOptimiser::Limits limits_;
+};
 
 VertexInsertion::VertexInsertion(const OperatorInfo& info, const ParameterValues& values)
     : OperatorOf(info, Judge::fair({.desperate = values.real("desperate")})),
       max_tets_(static_cast<std::size_t>(values.integer("max_tets"))),
       smooth_(values.flag("smooth")) {}
 
-std::span<const ParameterSpec> VertexInsertion::parameters() {
-  static constexpr std::array<ParameterSpec, 3> kParameters = {{
-      {"max_tets", ParameterSpec::Kind::integer, 1, 256, 64,
-       "most tets that give way; 1: only the one that holds the vertex"},
-      {"smooth", ParameterSpec::Kind::flag, 0, 1, 1, "move the vertex before judging"},
-      {"desperate", ParameterSpec::Kind::real, -1, 2, kDesperate,
-       "below this worst quality, a gain of 0.002 pays for one more bad tet"},
-  }};
-  return kParameters;
-}
-
-Verdict VertexInsertion::precondition(const OperatorContext& context, Target target, State&) const {
+Verdict VertexInsertion::precondition(const OperatorContext& context, Target target,
+                                      VertexInsertionState&) const {
   const TetMesh& mesh = context.mesh;
   if (has_no_room(context)) return Verdict::no_improvement;
   return mesh.is_certified_positive(mesh.vertices(target.tet())) ? Verdict::accepted
                                                                  : Verdict::not_applicable;
 }
 
-Verdict VertexInsertion::evaluate(OperatorContext& context, Target target, State& state) const {
+Verdict VertexInsertion::evaluate(OperatorContext& context, Target target,
+                                  VertexInsertionState& state) const {
   const TetMesh& mesh = context.mesh;
   auto& [ball, link, point] = state.ball;
   const auto& cavity = state.replacement.old_tets;
@@ -184,7 +219,7 @@ Verdict VertexInsertion::evaluate(OperatorContext& context, Target target, State
                                                                      : Verdict::no_improvement;
 }
 
-bool VertexInsertion::raises_mean(const TetMesh& mesh, double usual, State& state) {
+bool VertexInsertion::raises_mean(const TetMesh& mesh, double usual, VertexInsertionState& state) {
   double before = 0;
   for (const TetHandle t : state.replacement.old_tets) {
     const TetVertices& v = mesh.vertices(t);
@@ -206,7 +241,7 @@ bool VertexInsertion::raises_mean(const TetMesh& mesh, double usual, State& stat
 }
 
 Verdict VertexInsertion::apply(OperatorContext& context, Target, Transaction& transaction,
-                               State& state) const {
+                               VertexInsertionState& state) const {
   const VertexHandle v = transaction.add_vertex(state.ball.point);
   if (!v.is_valid()) return Verdict::deferred;
   state.replacement.new_tets.clear();
@@ -215,6 +250,65 @@ Verdict VertexInsertion::apply(OperatorContext& context, Target, Transaction& tr
     state.replacement.new_tets.push_back({v, a, b, c});
   }
   return state.replacement.make(transaction);
+}
+
+/// Target: a tet. Inserts a vertex at its centroid, see VertexInsertion. With `max_tets` = 1 this
+/// is the 1-4 flip, which seldom improves anything: it divides each angle of the tet.
+class CentroidInsertion final : public VertexInsertion {
+ public:
+  explicit CentroidInsertion(const ParameterValues& values)
+      : VertexInsertion(centroid_insertion_info(), values) {}
+
+ protected:
+  Point place(const TetMesh& mesh, TetHandle t) const override {
+    Point sum = Point::Zero();
+    for (const VertexHandle v : mesh.vertices(t)) sum += mesh.point(v);
+    return sum / 4;
+  }
+};
+
+/// Target: a tet. Inserts a vertex at its circumcentre, see VertexInsertion. That is often another
+/// tet, and outside the mesh for flat tets at the boundary: then the verdict is `constrained`.
+class CircumcentreInsertion final : public VertexInsertion {
+ public:
+  explicit CircumcentreInsertion(const ParameterValues& values)
+      : VertexInsertion(circumcentre_insertion_info(), values) {}
+
+ protected:
+  Point place(const TetMesh& mesh, TetHandle t) const override {
+    const auto& v = mesh.vertices(t);
+    const Point& origin = mesh.point(v[0]);
+    const Point a = mesh.point(v[1]) - origin;
+    const Point b = mesh.point(v[2]) - origin;
+    const Point c = mesh.point(v[3]) - origin;
+    const Point sum =
+        a.squaredNorm() * b.cross(c) + b.squaredNorm() * c.cross(a) + c.squaredNorm() * a.cross(b);
+    return origin + sum / (2 * a.dot(b.cross(c)));
+  }
+};
+
+constexpr std::array<ParameterSpec, 3> kVertexInsertionParameters = {{
+    {"max_tets", ParameterSpec::Kind::integer, 1, 256, 64,
+     "most tets that give way; 1: only the one that holds the vertex"},
+    {"smooth", ParameterSpec::Kind::flag, 0, 1, 1, "move the vertex before judging"},
+    {"desperate", ParameterSpec::Kind::real, -1, 2, kDesperate,
+     "below this worst quality, a gain of 0.002 pays for one more bad tet"},
+}};
+
+}  // namespace
+
+const OperatorInfo& centroid_insertion_info() {
+  static constexpr OperatorInfo kInfo = describe<CentroidInsertion>(
+      "centroid_insertion", TargetKind::tet, "insert a vertex at the centroid of a tet",
+      kVertexInsertionParameters);
+  return kInfo;
+}
+
+const OperatorInfo& circumcentre_insertion_info() {
+  static constexpr OperatorInfo kInfo = describe<CircumcentreInsertion>(
+      "circumcentre_insertion", TargetKind::tet, "insert a vertex at the circumcentre of a tet",
+      kVertexInsertionParameters);
+  return kInfo;
 }
 
 }  // namespace tetmend

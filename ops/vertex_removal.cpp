@@ -6,21 +6,26 @@
 //    \   / \   /          \ |   \ | /
 //     \ /   \ /            \|    \|/
 //      s-----t              s-----t
-#include "ops/vertex_removal.h"
-
 #include "kernel/star.h"
+#include "ops/builtin_operators.h"
 #include "ops/refilling.h"
+#include "ops/where.h"
 
 namespace tetmend {
 
 namespace {
 
-struct State {
+struct VertexRemovalState {
   std::vector<HalfFace> link;
   RefillingState refilling;
 };
 
-class VertexRemoval final : public OperatorOf<State> {
+/// Target: a vertex. Replaces its ball by the best tetrahedralisation between the vertices around
+/// it ([chen, 2.3]). Edge contraction connects them all to one of them; this connects them in any
+/// way. Refuses fixed vertices. Refuses as `not_applicable` more than 32 neighbours, and all
+/// vertices of a mesh that had inverted tets. Cost: cubic in the neighbours for the tables, and the
+/// search.
+class VertexRemoval final : public OperatorOf<VertexRemovalState> {
  public:
   explicit VertexRemoval(const ParameterValues& values)
       // A gain of a desperate tet is worth any number of bad ones.
@@ -30,17 +35,15 @@ class VertexRemoval final : public OperatorOf<State> {
         max_nodes_(static_cast<unsigned>(values.integer("max_nodes"))) {}
 
  protected:
-  Verdict precondition(const OperatorContext& context, Target target, State&) const override {
-    const VertexHandle v = target.vertex();
+  Verdict precondition(const OperatorContext& context, Target target,
+                       VertexRemovalState&) const override {
     // What fills a ball that overlaps itself need not be a mesh.
-    if (context.mesh.is_deleted(v) || !context.mesh.tet_of(v).is_valid() ||
-        context.workspace.mesh_may_overlap()) {
-      return Verdict::not_applicable;
-    }
-    return context.mesh.is_fixed(v) ? Verdict::constrained : Verdict::accepted;
+    if (context.workspace.mesh_may_overlap()) return Verdict::not_applicable;
+    return check_vertex(context.mesh, target.vertex(), Where::inside);
   }
 
-  Verdict evaluate(OperatorContext& context, Target target, State& state) const override {
+  Verdict evaluate(OperatorContext& context, Target target,
+                   VertexRemovalState& state) const override {
     const TetMesh& mesh = context.mesh;
     auto& [polyhedron, search, replacement] = state.refilling;
     const StarKind kind = find_star(mesh, target.vertex(), context.workspace, state.link);
@@ -53,7 +56,8 @@ class VertexRemoval final : public OperatorOf<State> {
     return refill(problem, state.refilling);
   }
 
-  Verdict apply(OperatorContext&, Target, Transaction& transaction, State& state) const override {
+  Verdict apply(OperatorContext&, Target, Transaction& transaction,
+                VertexRemovalState& state) const override {
     return state.refilling.replacement.make(transaction);
   }
 
@@ -61,7 +65,7 @@ class VertexRemoval final : public OperatorOf<State> {
   unsigned max_nodes_;
 };
 
-constexpr std::array<ParameterSpec, 2> kParameters = {{
+constexpr std::array<ParameterSpec, 2> kVertexRemovalParameters = {{
     {"max_nodes", ParameterSpec::Kind::integer, 1, 100000, 500,
      "most tets that the search places on its way"},
     {"desperate", ParameterSpec::Kind::real, -1, 2, kDesperate,
@@ -71,12 +75,9 @@ constexpr std::array<ParameterSpec, 2> kParameters = {{
 }  // namespace
 
 const OperatorInfo& vertex_removal_info() {
-  static const OperatorInfo kInfo = {
+  static constexpr OperatorInfo kInfo = describe<VertexRemoval>(
       "vertex_removal", TargetKind::vertex,
-      "remove a vertex: best tetrahedralisation of its ball without it", kParameters,
-      [](const ParameterValues& values) -> std::unique_ptr<Operator> {
-        return std::make_unique<VertexRemoval>(values);
-      }};
+      "remove a vertex: best tetrahedralisation of its ball without it", kVertexRemovalParameters);
   return kInfo;
 }
 

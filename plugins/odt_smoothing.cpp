@@ -121,12 +121,9 @@ constexpr std::array<ParameterSpec, 2> kParameters = {{
 }};
 
 const OperatorInfo& odt_smoothing_info() {
-  static const OperatorInfo kInfo = {
+  static constexpr OperatorInfo kInfo = describe<OdtSmoothing>(
       "odt_smoothing", TargetKind::vertex,
-      "move a vertex towards the volume-weighted mean of the circumcentres around it", kParameters,
-      [](const ParameterValues& values) -> std::unique_ptr<Operator> {
-        return std::make_unique<OdtSmoothing>(values);
-      }};
+      "move a vertex towards the volume-weighted mean of the circumcentres around it", kParameters);
   return kInfo;
 }
 

@@ -37,7 +37,7 @@ class ProgressListener {
   virtual void pass_done(std::string_view phase, unsigned round, const QualityIndicators& now) = 0;
   /// What the schedule has to say.
   virtual void noted(std::string_view) {}
-  /// How long each block of a sweep took, in seconds: for who measures how passes scale. A pass
+  /// How long each block of a sweep took, in seconds: to measure how passes scale. A pass
   /// makes several such sweeps.
   virtual void blocks_done(std::span<const double> /*seconds*/) {}
 };

@@ -190,15 +190,15 @@ constexpr std::array<WordInfo, 28> kWords = {{
      "from now on what makes the mesh grow adds tets that are round enough: the mean ratios of all "
      "that changes, each less this number, have no smaller sum than before. 0: as from the start"},
     {"hold_worst", "hold_worst()",
-     "from now on no change makes a tet with a smaller angle than the smallest of the mesh now, or "
-     "with a larger one than its largest and that of the goal. From the start it is so with those "
+     "from now on no change makes a tet with a smaller angle than the smallest of the mesh now. None "
+     "makes a larger one than its largest and that of the goal. From the start it is so with those "
      "of the input"},
     {"quality_of_angle", "quality_of_angle(degrees)",
      "the quality of a tet whose worst angle is this, for the present goal"},
     {"quality", "quality()",
      "the mesh now: q_worst (1: the goal is just met), n_bad (tets that miss it), n_needles "
-     "(others of a quality below 1), q_aver (mean quality of both), goal_min, goal_max, theta_min, "
-     "theta_max, lambda, mean_ratio (the mean of all tets), tets, vertices, seconds (since the "
+     "(others of a quality below 1), q_aver (mean quality of both); goal_min, goal_max, theta_min, "
+     "theta_max, lambda, mean_ratio (the mean of all tets), tets, vertices; seconds (since the "
      "start), passes (so far), date (of the "
      "sweep that comes next, for selections). theta_min, theta_max, lambda and mean_ratio are "
      "measured "

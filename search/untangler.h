@@ -72,7 +72,7 @@ class Untangler {
 
   /// The free vertices are the first of them.
   std::span<const Point> points() const { return points_; }
-  /// So far; for who measures.
+  /// So far; for measurements.
   std::size_t looks() const { return looks_; }
 
  private:

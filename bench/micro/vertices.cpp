@@ -10,7 +10,7 @@
 #include "kernel/star.h"
 #include "kernel/workspace.h"
 #include "ops/registry.h"
-#include "ops/smoothing.h"
+#include "ops/vertex_ball.h"
 
 namespace {
 

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Insertion by cavity on meshes with small whole coordinates: what gives way, what does not, and
 // what smoothing around the new vertex adds.
-#include "ops/cavity_insertion.h"
-
 #include <string>
 
 #include <doctest/doctest.h>

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Insertion at the centroid on meshes with small whole coordinates: what gives way, and what does
 // not.
-#include "ops/centroid_insertion.h"
-
 #include <doctest/doctest.h>
 
 #include "tests/support/lone_worker.h"

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Insertion at the circumcentre on meshes with small whole coordinates: in the target, in another
 // tet, behind a wall.
-#include "ops/circumcentre_insertion.h"
-
 #include <utility>
 
 #include <doctest/doctest.h>

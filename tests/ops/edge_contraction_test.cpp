@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: MIT
 // Edge contraction in balls in which one vertex is too many.
-#include "ops/edge_contraction.h"
-
 #include <algorithm>
 #include <cmath>
 #include <vector>

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: MIT
 // Edge split on shells in which a vertex on the edge helps, and in which it does not.
-#include "ops/edge_split.h"
-
 #include <algorithm>
 #include <vector>
 

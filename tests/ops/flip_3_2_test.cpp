@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: MIT
 // The 3-2 flip on a shell with small whole coordinates, and each reason to refuse.
-#include "ops/flip_3_2.h"
-
 #include <doctest/doctest.h>
 
 #include "tests/support/lone_worker.h"

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: MIT
 // The 4-4 flip on octahedra with small whole coordinates, and each reason to refuse.
-#include "ops/flip_4_4.h"
-
 #include <doctest/doctest.h>
 
 #include "tests/support/lone_worker.h"

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Smoothing of all vertices of a tet: what moves, what does not, and that it goes on where single
 // vertices are stuck.
-#include "ops/joint_smoothing.h"
-
 #include <algorithm>
 
 #include <doctest/doctest.h>

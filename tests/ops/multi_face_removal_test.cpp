@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: MIT
 // Multi-face removal and the 2-3 flip on sandwiches whose best covering is known.
-#include "ops/multi_face_removal.h"
-
 #include <algorithm>
 #include <string>
 #include <vector>

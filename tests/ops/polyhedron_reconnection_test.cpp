@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: MIT
 // Small polyhedron reconnection: what only it improves, and what it leaves alone.
-#include "ops/polyhedron_reconnection.h"
-
 #include <doctest/doctest.h>
 
 #include "tests/support/lone_worker.h"

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The recursion on small pieces cut out of real Delaunay meshes, in which it is known what it takes
 // to remove an edge.
-#include "ops/recursive_shell_transformation.h"
-
 #include <algorithm>
 #include <array>
 #include <vector>

@@ -12,7 +12,7 @@
 #include <doctest/doctest.h>
 
 #include "kernel/error.h"
-#include "ops/smoothing.h"
+#include "ops/builtin_operators.h"
 #include "tests/support/text.h"
 
 using namespace tetmend;

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: MIT
 // Shell transformation and plain edge removal on shells whose best covering is known.
-#include "ops/shell_transformation.h"
-
 #include <algorithm>
 #include <array>
 #include <numbers>

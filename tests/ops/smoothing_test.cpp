@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: MIT
 // Smoothing of one vertex in balls whose best place is known.
-#include "ops/smoothing.h"
-
 #include <algorithm>
 #include <vector>
 
@@ -10,6 +8,7 @@
 #include "kernel/integrity.h"
 #include "kernel/star.h"
 #include "ops/registry.h"
+#include "ops/vertex_ball.h"
 #include "tests/support/lone_worker.h"
 #include "tests/support/zoo.h"
 

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: MIT
 // Vertex removal: balls that are better without their vertex, and those that are not.
-#include "ops/vertex_removal.h"
-
 #include <doctest/doctest.h>
 
 #include "tests/support/lone_worker.h"
