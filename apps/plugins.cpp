@@ -60,8 +60,8 @@ std::vector<path> plugins_of_environment() {
 void add_plugin_option(CLI::App& command, std::vector<std::filesystem::path>& plugins) {
   command
       .add_option("--plugin", plugins,
-                  "Load the operators of this shared library;\n"
-                  "may be repeated. TETMEND_PLUGIN_PATH names\n"
+                  "Load the operators of this shared library; "
+                  "may be repeated. TETMEND_PLUGIN_PATH names "
                   "more: files, and folders for all *.so in them")
       ->type_name("FILE")
       ->allow_extra_args(false);

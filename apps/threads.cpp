@@ -22,7 +22,7 @@ void add_threads_option(CLI::App& command, int& threads) {
             }
             threads = options.threads;
           },
-          "Worker threads, 1 to 1024 (default: 1); the\n"
+          "Worker threads, 1 to 1024 (default: 1); the "
           "result is the same for every number")
       ->type_name("N");
 }
