@@ -9,6 +9,7 @@
 #include <tetmend/option_text.h>
 
 #include "apps/commands.h"
+#include "apps/help_formatter.h"
 #include "apps/plugins.h"
 #include "apps/threads.h"
 
@@ -61,40 +62,39 @@ constexpr std::string_view kAdapt = "adapt";
 void add_schedule_options(CLI::App& command, ImproveOptions& options) {
   Options& run = options.run;
   add_value(command, run, "schedule",
-            "What is tried in which order: one of\n"
-            "'tetmend schedules', or a script\n"
+            "What is tried in which order: one of "
+            "'tetmend schedules', or a script "
             "(default: " +
                 run.schedule + ")");
   add_values(command, run, "set",
-             "Value of a parameter of the schedule,\nsee 'tetmend schedules NAME'; may be\n"
+             "Value of a parameter of the schedule, see 'tetmend schedules NAME'; may be "
              "given several times");
-  add_value(command, run, "purpose",
-            "What the mesh is for: explicit, implicit,\nvolumes or angles (see docs/choosing.md;\n"
-            "default: any solver)");
+  add_value(command, run, "purpose", "The same as --for");
   command
       .add_option_function<std::string>(
           "--for", [&run](const std::string& value) { set(run, "purpose", value); },
-          "The same as --purpose")
+          "What the mesh is for: explicit, implicit, volumes or angles (see docs/choosing.md; "
+          "default: any solver)")
       ->type_name("NAME");
   add_value(command, run, "goal",
-            "Degrees: no dihedral angle under MIN or\nover MAX (default: 30,150; MAX alone: "
-            "180\nless MIN). Tets that miss it are bad")
+            "Degrees: no dihedral angle under MIN or over MAX (default: 30,150; MAX alone: "
+            "180 less MIN). Tets that miss it are bad")
       ->each([&options](const std::string& text) { options.goal = text; });
   add_value(command, run, "measure",
-            "What tets are judged by: angles and needles,\nor with 'sine' angles alone, as "
-            "in the\npaper (default: sine_and_length)");
+            "What tets are judged by: angles and needles, or with 'sine' angles alone, as "
+            "in the paper (default: sine_and_length)");
 }
 
 void add_time_limit(CLI::App& command, Options& run) {
   add_value(command, run, "time-limit",
-            "Stop improving after that time and\nwrite what was reached");
+            "Stop improving after that time and write what was reached");
 }
 
 void add_plugin_options(CLI::App& command, ImproveOptions& options) {
   add_plugin_option(command, options.run.plugin);
   command
       .add_option("--attempt-limit", options.attempt_limit,
-                  "Say so when an attempt of a plugin takes\nlonger; 0: never (default: 10)")
+                  "Say so when an attempt of a plugin takes longer; 0: never (default: 10)")
       ->type_name("SECONDS")
       ->check(is_number_of_seconds);
   add_check_option(command, options.run);
@@ -102,23 +102,23 @@ void add_plugin_options(CLI::App& command, ImproveOptions& options) {
 
 void add_layers_and_tets(CLI::App& command, Options& options) {
   add_value(command, options, "layers",
-            "Boundary layers, prisms cut into tets, stay\n"
-            "as they are (keep, the default) or are\n"
+            "Boundary layers, prisms cut into tets, stay "
+            "as they are (keep, the default) or are "
             "worked on like the rest (improve)");
   CLI::Option* surface = add_value(command, options, "surface",
-                                   "How far the surface may move where it holds\n"
-                                   "bad tets: fixed (the default), flat (only\n"
-                                   "where no shape changes), 1% of the lengths\n"
-                                   "of edges there, or a length such as 0.01\n"
+                                   "How far the surface may move where it holds "
+                                   "bad tets: fixed (the default), flat (only "
+                                   "where no shape changes), 1% of the lengths "
+                                   "of edges there, or a length such as 0.01 "
                                    "(above 5% of the mesh's diagonal: 0.5!)");
   add_value(command, options, "feature-angle",
-            "Lines along which faces bend by more stay\n"
+            "Lines along which faces bend by more stay "
             "where they are (default: 40)")
       ->needs(surface);
   add_value(command, options, "tets",
-            "How far the mesh may grow: 10% more tets\nthan there were, or 500000 in all, not "
-            "less\nthan there are (default: 15%; with\nother schedules than shell and polish, "
-            "as\nfar as it pays)");
+            "How far the mesh may grow: 10% more tets than there were, or 500000 in all, not "
+            "less than there are (default: 15%; with other schedules than shell and polish, "
+            "as far as it pays)");
 }
 
 void add_protected_regions(CLI::App& command, Options& options) {
@@ -128,8 +128,8 @@ void add_protected_regions(CLI::App& command, Options& options) {
 
 void add_conserve(CLI::App& command, Options& options) {
   add_values(command, options, "conserve",
-             "Keep the integral of this array of the\ntets: new tets get the mean of the old "
-             "by\nshared volume; may be repeated");
+             "Keep the integral of this array of the tets: new tets get the mean of the old "
+             "by shared volume; may be repeated");
 }
 
 void add_region_options(CLI::App& command, Options& options) {
@@ -137,44 +137,54 @@ void add_region_options(CLI::App& command, Options& options) {
   add_layers_and_tets(command, options);
   if (options.schedule != kAdapt) {  // else lengths are those that are wanted
     command.add_flag("--keep-size", options.keep_size,
-                     "Make no edge that is shorter than half or\nlonger than twice what edges are "
+                     "Make no edge that is shorter than half or longer than twice what edges are "
                      "there in IN");
   }
   command.add_flag("--ignore-interior", options.ignore_interior,
-                   "Drop the triangles, edges and required\n"
+                   "Drop the triangles, edges and required "
                    "vertices that the file names inside a region");
   command.add_flag("--straighten", options.straighten,
-                   "Second order: where tets stay turned over,\n"
+                   "Second order: where tets stay turned over, "
                    "make edges of the surface straight");
+}
+
+void add_talk_options(CLI::App& command, ImproveOptions& options) {
+  CLI::Option* const quiet =
+      command.add_flag("-q,--quiet", options.quiet, "Print nothing but errors");
+  command
+      .add_flag(
+          "-v,--verbose", options.verbose,
+          "Print all figures, what holds the bad tets that are left, and the time of each pass")
+      ->excludes(quiet);
 }
 
 }  // namespace
 
 void add_check_option(CLI::App& command, Options& options) {
   command.add_flag("--check-operators", options.check_operators,
-                   "Hold each attempt of a plugin to the contract\nof operators; slow, and in one "
+                   "Hold each attempt of a plugin to the contract of operators; slow, and in one "
                    "thread");
 }
 
 void add_trace_options(CLI::App& command, Options& options) {
   CLI::Option* trace = add_value(command, options, "trace",
-                                 "Record all that happens, for 'tetmend\ntrace'; the run uses one "
+                                 "Record all that happens, for 'tetmend trace'; the run uses one "
                                  "thread then");
   add_value(command, options, "trace-around",
-            "Record only attempts that aim at a vertex\nin a ball: around a point, or "
-            "around tet N\nof IN, counted from 0, one less than\nquality --list says (radius: its "
-            "longest edge,\nif not given)")
+            "Record only attempts that aim at a vertex in a ball: around a point, or "
+            "around tet N of IN, counted from 0, one less than quality --list says (radius: its "
+            "longest edge, if not given)")
       ->needs(trace);
   add_values(command, options, "trace-operator",
-             "Record only attempts of this operator, with\nall that they call; may be "
-             "given several\ntimes")
+             "Record only attempts of this operator, with all that they call; may be "
+             "given several times")
       ->needs(trace);
   add_value(command, options, "trace-depth",
-            "Record only attempts with at most that many\nattempts around them; 0: the "
+            "Record only attempts with at most that many attempts around them; 0: the "
             "outermost")
       ->needs(trace);
   add_value(command, options, "trace-limit",
-            "End the trace before it is larger, such as\n500M; the run goes on")
+            "End the trace before it is larger, such as 500M; the run goes on")
       ->needs(trace);
 }
 
@@ -187,12 +197,11 @@ void add_options_of_pieces(CLI::App& command, ImproveOptions& options) {
   add_conserve(command, options.run);
   add_threads_option(command, options.run.threads);
   command
-      .add_option(
-          "--report", options.reports,
-          "join: write all that is printed at the end,\nand more, as .json; may be repeated")
+      .add_option("--report", options.reports,
+                  "join: write all that is printed at the end, and more, as .json; may be repeated")
       ->type_name("FILE")
       ->allow_extra_args(false);
-  command.add_flag("-q,--quiet", options.quiet, "Print nothing but errors");
+  add_talk_options(command, options);
 }
 
 std::string is_number_of_seconds(const std::string& text) {
@@ -216,29 +225,42 @@ void add_improve_options(CLI::App& command, ImproveOptions& options) {
   add_trace_options(command, options.run);
   add_value(
       command, options.run, "trace-piece",
-      "In pieces: which one is recorded, in which\nround (default: in round 1 the piece around "
-      "the\nplace of --trace-around, or the one with the\nworst tet)");
+      "In pieces: which one is recorded, in which round (default: in round 1 the piece around "
+      "the place of --trace-around, or the one with the worst tet)");
   add_carry_options(command, options.carry);
   add_conserve(command, options.run);
   add_format_option(command, options.format);
   command
       .add_option(
           "--report", options.reports,
-          "Write all that is printed, and more: .json\nfor programs, .html with pictures, for a\n"
+          "Write all that is printed, and more: .json for programs, .html with pictures, for a "
           "browser; may be repeated")
       ->type_name("FILE")
       ->allow_extra_args(false);  // so that IN may follow
-  command.add_flag("-q,--quiet", options.quiet, "Print nothing but errors");
+  add_talk_options(command, options);
+  group_options(command);
+}
+
+void add_folder_option(CLI::App& command) {
+  command.add_flag("--no-config")->description("Take no options from tetmend.conf of this folder");
+  group_options(command);
+}
+
+void add_dry_run_option(CLI::App& command, ImproveOptions& options) {
+  command.add_flag(
+      "--dry-run", options.dry_run,
+      "Write nothing: say what would be kept, what is found, and what the surface forces");
+  group_options(command);
 }
 
 void add_adapt_options(CLI::App& command, ImproveOptions& options) {
   options.run.schedule = kAdapt;
   Options& run = options.run;
   add_values(command, run, "size",
-             "How long edges are to be, see below; may be\ngiven several times")
+             "How long edges are to be, see below; may be given several times")
       ->required();
   add_value(command, run, "gradation",
-            "Lengths grow by at most this less 1 times the\ndistance; 0: as they like (default: "
+            "Lengths grow by at most this less 1 times the distance; 0: as they like (default: "
             "1.3)");
   add_value(command, run, "smallest", "No length is wanted below that");
   add_value(command, run, "largest", "No length is wanted above that");

@@ -22,7 +22,9 @@ struct ImproveOptions {
   std::filesystem::path input;
   std::filesystem::path output;
   std::vector<std::filesystem::path> reports;  ///< .json, .html or .htm
+  bool verbose = false;
   bool quiet = false;
+  bool dry_run = false;
   CarryOptions carry;
   std::string format;         ///< of "-"
   Options run;                ///< what the library reads
@@ -35,6 +37,12 @@ struct ImproveOptions {
 std::string is_number_of_seconds(const std::string& text);
 
 void add_improve_options(CLI::App& command, ImproveOptions& options);
+
+/// --no-config, for commands that folder_options() knows.
+void add_folder_option(CLI::App& command);
+
+/// --dry-run, for a run that has the whole mesh in memory.
+void add_dry_run_option(CLI::App& command, ImproveOptions& options);
 
 /// The same, and those that say how long edges are to be.
 void add_adapt_options(CLI::App& command, ImproveOptions& options);

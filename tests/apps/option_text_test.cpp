@@ -39,8 +39,9 @@ TEST_CASE(
       run_program({"improve", "--help"}).out + run_program({"adapt", "--help"}).out;
   // Those that are about files, the terminal, pieces, and the program's watch over plugins.
   const std::set<std::string> of_the_program = {
-      "help",    "output",        "report", "quiet",  "strict",  "label-array", "format",
-      "variant", "attempt-limit", "pieces", "memory", "scratch", "checkpoint",  "for"};
+      "help",   "output",  "report",  "quiet",      "strict",    "label-array",
+      "format", "variant", "verbose", "dry-run",    "no-config", "attempt-limit",
+      "pieces", "memory",  "scratch", "checkpoint", "for"};
   const std::set<std::string> of_the_library = {"script", "limit"};
   std::set<std::string> names;
   const std::regex option(R"(\n +(?:-\w,\s*)?--([a-z-]+))");
