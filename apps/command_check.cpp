@@ -262,8 +262,8 @@ the goal allows it, not more bad tets. Where inverted tets were mended, these
 two angles are shown and not asked for. Thresholds are then asked of OUT, and
 --for explicit or implicit that OUT is no dearer to solve on than FILE.
 
-Of three meshes and more, or with --each, thresholds and --for are asked of each:
-a line each with what fails, one for the worst, and the status of the worst.
+Of three meshes and more, or with --each, thresholds and --for are asked of each
+one: a line each with what fails, one for the worst, and its status.
 
 Presets; all of them ask for no inverted tet:
 {}

@@ -241,6 +241,7 @@ int run_dry(const ImproveOptions& options, const Invocation& invocation) {
   nothing.trace.clear();
   report.result = tetmend::improve(mesh, nothing);
   progress.clear();
+  if (options.quiet) return kSuccess;
   say(stream_beside(options.output),
       fmt::format("tetmend {}: {} -> {}, nothing is written\n{}", version(), options.input.string(),
                   options.output.string(), format_prospect(report)));

@@ -274,8 +274,6 @@ void add_pieces(CLI::App& app, Invocation& invocation) {
                    "divided by N")
       ->type_name("I/N");
   add_options_of_pieces(*command, options->improve);
-  add_trace_options(*command, options->improve.run);
-  add_check_option(*command, options->improve.run);
   group_options(*command);
   command->footer(
       R"(A run has rounds: three divisions of the mesh, then up to four rounds of zones

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 #include <array>
-#include <span>
 #include <sstream>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -13,47 +13,25 @@ namespace {
 
 constexpr std::size_t kColumn = 28;
 constexpr std::size_t kWidth = 80;
-constexpr const char* kUsual = "Options";  // the parser's own name for what has no group
 constexpr const char* kExamples = "Examples:";
 
-struct OptionGroup {
-  std::string_view title;
-  std::span<const std::string_view> options;
-};
+constexpr std::array kHeadings = {headings::kUsual,  headings::kChange, headings::kSearch,
+                                  headings::kData,   headings::kLarge,  headings::kRecord,
+                                  headings::kPlugins};
 
-using namespace std::string_view_literals;
-constexpr std::array kUsualOptions = {"output"sv,  "size"sv,       "schedule"sv, "goal"sv,
-                                      "for"sv,     "time-limit"sv, "threads"sv,  "report"sv,
-                                      "dry-run"sv, "verbose"sv,    "quiet"sv,    "help"sv};
-constexpr std::array kChangeOptions = {"surface"sv,   "feature-angle"sv,   "tets"sv,
-                                       "keep-size"sv, "gradation"sv,       "smallest"sv,
-                                       "largest"sv,   "layers"sv,          "protect"sv,
-                                       "only"sv,      "ignore-interior"sv, "straighten"sv};
-constexpr std::array kSearchOptions = {"set"sv, "purpose"sv, "measure"sv};
-constexpr std::array kFileOptions = {"format"sv,      "variant"sv,  "strict"sv,
-                                     "label-array"sv, "conserve"sv, "no-config"sv};
-constexpr std::array kLargeOptions = {"pieces"sv, "memory"sv, "scratch"sv, "checkpoint"sv};
-constexpr std::array kRecordOptions = {"trace"sv,       "trace-around"sv, "trace-operator"sv,
-                                       "trace-depth"sv, "trace-limit"sv,  "trace-piece"sv};
-constexpr std::array kPluginOptions = {"plugin"sv, "attempt-limit"sv, "check-operators"sv};
-
-/// In the order of help. What stands nowhere follows the usual ones.
-constexpr std::array<OptionGroup, 7> kGroups = {{{kUsual, kUsualOptions},
-                                                 {"How much may change", kChangeOptions},
-                                                 {"How it is searched", kSearchOptions},
-                                                 {"Files and data", kFileOptions},
-                                                 {"Large meshes", kLargeOptions},
-                                                 {"Record of the run", kRecordOptions},
-                                                 {"Plugins", kPluginOptions}}};
-
-std::size_t place_in(const OptionGroup& group, const CLI::Option& option) {
-  std::size_t place = group.options.size();
-  for (const std::string& name : option.get_lnames()) {
-    const auto found = std::find(group.options.begin(), group.options.end(), name);
-    place = std::min(place, static_cast<std::size_t>(found - group.options.begin()));
-  }
-  return place;
-}
+/// Options of the program itself in commands that have many.
+constexpr std::array<std::pair<std::string_view, const char*>, 11> kOwn = {
+    {{"format", headings::kData},
+     {"variant", headings::kData},
+     {"strict", headings::kData},
+     {"label-array", headings::kData},
+     {"no-config", headings::kData},
+     {"pieces", headings::kLarge},
+     {"memory", headings::kLarge},
+     {"scratch", headings::kLarge},
+     {"checkpoint", headings::kLarge},
+     {"plugin", headings::kPlugins},
+     {"attempt-limit", headings::kPlugins}}};
 
 /// Words in lines of a width.
 std::string wrapped(const std::string& text, std::size_t width) {
@@ -95,14 +73,13 @@ std::string HelpFormatter::make_help(const CLI::App* app, std::string name,
 
 std::string HelpFormatter::list_groups(const CLI::App& app) const {
   std::string text;
-  for (const OptionGroup& group : kGroups) {
+  for (const char* heading : kHeadings) {
     std::vector<const CLI::Option*> options = app.get_options([&](const CLI::Option* option) {
-      return option->nonpositional() && option->get_group() == group.title;
+      return option->nonpositional() && option->get_group() == heading;
     });
-    std::stable_sort(options.begin(), options.end(), [&](const auto* a, const auto* b) {
-      return place_in(group, *a) < place_in(group, *b);
-    });
-    if (!options.empty()) text += make_group(std::string(group.title), false, options);
+    std::stable_partition(options.begin(), options.end(),
+                          [&](const CLI::Option* option) { return option != app.get_help_ptr(); });
+    if (!options.empty()) text += make_group(heading, false, options);
     if (is_short_) break;
   }
   for (const CLI::App* one_of : app.get_subcommands({})) {  // groups are those without a name
@@ -164,19 +141,14 @@ bool asks_for_short_help(const std::vector<std::string>& arguments) {
 }
 
 std::size_t place_in_help(const CLI::Option& option) {
-  std::size_t before = 0;
-  for (const OptionGroup& group : kGroups) {
-    if (option.get_group() == group.title) return before + place_in(group, option);
-    before += group.options.size() + 1;
-  }
-  return before;
+  const auto found = std::find(kHeadings.begin(), kHeadings.end(), option.get_group());
+  return static_cast<std::size_t>(found - kHeadings.begin());
 }
 
 void group_options(CLI::App& command) {
-  for (CLI::Option* option : command.get_options([](const CLI::Option*) { return true; })) {
-    for (const OptionGroup& group : kGroups) {
-      if (place_in(group, *option) < group.options.size()) option->group(std::string(group.title));
-    }
+  for (const auto& [name, heading] : kOwn) {
+    CLI::Option* const option = command.get_option_no_throw("--" + std::string(name));
+    if (option != nullptr) option->group(heading);
   }
 }
 
@@ -188,6 +160,11 @@ std::string message_of(const CLI::ParseError& error) {
   constexpr std::string_view kRequired = " is required";
   if (error.get_name() == "RequiredError" && text.ends_with(kRequired)) {
     return without(kRequired) + " is missing";
+  }
+  if (const std::size_t list = text.find("given from [");
+      error.get_name() == "RequiredError" && list != std::string::npos) {
+    return "at most one is allowed of " +
+           text.substr(text.find('[', list) + 1, text.find(']', list) - text.find('[', list) - 1);
   }
   if (error.get_name() != "ArgumentMismatch") return text;
   const std::string option = text.substr(0, text.find(':'));

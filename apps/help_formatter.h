@@ -11,6 +11,17 @@
 
 namespace tetmend::apps {
 
+/// Under which options are listed, in this order.
+namespace headings {
+inline constexpr const char* kUsual = "Options";  // the parser's own for what has no other
+inline constexpr const char* kChange = "How much may change";
+inline constexpr const char* kSearch = "How it is searched";
+inline constexpr const char* kData = "Files and data";
+inline constexpr const char* kLarge = "Large meshes";
+inline constexpr const char* kRecord = "Record of the run";
+inline constexpr const char* kPlugins = "Plugins";
+}  // namespace headings
+
 class HelpFormatter : public CLI::Formatter {
  public:
   /// @param is_short what is usual alone, in one screen
@@ -35,11 +46,10 @@ class HelpFormatter : public CLI::Formatter {
 /// Whether these arguments ask for the short help: -h, and not --help.
 bool asks_for_short_help(const std::vector<std::string>& arguments);
 
-/// The options of a command that has many get the groups in which help lists them; --help is among
-/// the usual ones.
+/// The program's own options get headings beside those that the library's have.
 void group_options(CLI::App& command);
 
-/// Where help lists it among all that options can be; of two with one place the first comes first.
+/// The number of its heading.
 std::size_t place_in_help(const CLI::Option& option);
 
 /// What is wrong with the command line, in one line, for what the parser itself says in words of

@@ -50,10 +50,6 @@ void add_adapt_options(CLI::App& command, ImproveOptions& options);
 /// Those that a run by `tetmend pieces` can have.
 void add_options_of_pieces(CLI::App& command, ImproveOptions& options);
 
-/// --trace and what belongs to it, and --check-operators. --trace-piece is not among them.
-void add_trace_options(CLI::App& command, Options& options);
-void add_check_option(CLI::App& command, Options& options);
-
 /// What is read besides the mesh: a schedule and plugins, also those that the environment names.
 /// @throws Error as all_plugins()
 std::vector<NamedFile> files_of_options(const Options& options);

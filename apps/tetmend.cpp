@@ -128,6 +128,11 @@ std::string describe(const CLI::ParseError& error, const CLI::App& app,
                        guess(word.substr(0, word.find('=')), list_options(command)),
                        chosen.empty() ? "" : " " + command.get_name());
   }
+  const bool lacks_output = message_of(error).starts_with("--output is missing");
+  if (lacks_output && !app.remaining(true).empty()) {
+    return fmt::format("{}: did you mean '-o {}'? (see tetmend {} --help)", message_of(error),
+                       app.remaining(true).front(), chosen.front()->get_name());
+  }
   if (!chosen.empty()) {
     return fmt::format("{} (see tetmend {} --help)", message_of(error), chosen.front()->get_name());
   }

@@ -64,7 +64,7 @@ class CommandLine(unittest.TestCase):
         self.assertEqual(heads[:4], ["Arguments", "Options", "How much may change", "How it is searched"])
         usual = long.partition("Options:\n")[2].partition("\n\n")[0]
         self.assertEqual(re.findall(r"^ {2}(?:-\w,)?--([a-z-]+)", usual, re.M)[:4], ["output", "schedule", "goal", "for"])
-        for command in ("improve", "adapt", "check", "convert", "trace", "pieces"):
+        for command in ("improve", "adapt", "convert", "trace", "pieces"):
             for line in self.run_program(command, "--help").stdout.splitlines():
                 self.assertLessEqual(len(line), 80, f"{command}: {line}")
 

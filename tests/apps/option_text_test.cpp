@@ -64,6 +64,24 @@ TEST_CASE(
   }
 }
 
+TEST_CASE("what help says of an option of the library is what its row says") {
+  std::string help = run_program({"improve", "--help"}).out + run_program({"adapt", "--help"}).out;
+  help = std::regex_replace(help, std::regex("\\s+"), " ");
+  std::set<std::string_view> names;
+  for (const OptionForm& form : option_forms()) names.insert(form.name);
+  for (const OptionForm& form : option_forms()) {
+    CAPTURE(form.name);
+    CHECK(!form.help.empty());
+    CHECK((form.needs.empty() || names.contains(form.needs)));
+    CHECK(form.group == OptionGroup::other == (form.name == "script" || form.name == "limit"));
+    if (form.group == OptionGroup::other) continue;
+    const std::string_view begin = form.help.substr(0, form.help.size() - 1);  // may go on
+    CHECK(help.find(begin) != std::string::npos);
+    if (!form.initial.empty())
+      CHECK(help.find("default: " + std::string(form.initial)) != std::string::npos);
+  }
+}
+
 TEST_CASE("of a wrong value the command line says what the library says") {
   const std::vector<std::array<std::string, 2>> wrong = {{"schedule", "varnish"},
                                                          {"set", "rounds"},
