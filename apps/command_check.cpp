@@ -19,6 +19,7 @@
 #include "apps/commands.h"
 #include "apps/files.h"
 #include "apps/mesh_formats.h"
+#include "apps/number_check.h"
 #include "apps/standard_streams.h"
 #include "apps/threads.h"
 #include "kernel/from_chars.h"
@@ -30,6 +31,8 @@ namespace {
 struct Options {
   std::filesystem::path file;
   std::filesystem::path improved;
+  std::vector<std::filesystem::path> more;
+  bool each = false;  ///< the meshes are not compared
   CheckOptions wanted;
   std::vector<std::string> measures;  ///< NAME=VALUE
   bool json = false;
@@ -61,13 +64,12 @@ nlohmann::json to_json(const Fact::Number& number) {
   return nullptr;
 }
 
-void print(const Options& options, const std::vector<Fact>& facts, bool holds) {
-  if (!options.json) {
-    for (const Fact& fact : facts) {
-      say(stdout, fmt::format("{}  {}\n", fact.holds ? "ok  " : "FAIL", printable(fact.text)));
-    }
-    return;
-  }
+void say_whether(bool holds) {
+  say(stdout, holds ? "ok" : "FAIL", holds ? Colour::green : Colour::red);
+  say(stdout, holds ? "    " : "  ");
+}
+
+nlohmann::json to_json(const Options& options, const std::vector<Fact>& facts, bool holds) {
   nlohmann::json list = nlohmann::json::array();
   for (const Fact& fact : facts) {
     list.push_back({{"name", fact.name},
@@ -79,7 +81,18 @@ void print(const Options& options, const std::vector<Fact>& facts, bool holds) {
   nlohmann::json result = {
       {"schema", 1}, {"file", options.file.string()}, {"holds", holds}, {"facts", list}};
   if (!options.improved.empty()) result["improved"] = options.improved.string();
-  print_json(result);
+  return result;
+}
+
+void print(const Options& options, const std::vector<Fact>& facts, bool holds) {
+  if (!options.json) {
+    for (const Fact& fact : facts) {
+      say_whether(fact.holds);
+      say(stdout, printable(fact.text) + '\n');
+    }
+    return;
+  }
+  print_json(to_json(options, facts, holds));
 }
 
 /// Of parts, groups are not kept: they cannot be compared.
@@ -93,17 +106,9 @@ Mesh load_to_check(const Options& options, const std::filesystem::path& file,
   return mesh;
 }
 
-int run_check(Options& options, const pieces::ArrayFiles* parts) {
-  name_streams(options.format, options.file, nullptr);
-  check_input_format(options.file, parts);
-  if (!options.improved.empty()) check_input_format(options.improved, parts);
+/// @throws UsageError
+std::vector<Fact> facts_of(Options& options, const pieces::ArrayFiles* parts) {
   CheckOptions& wanted = options.wanted;
-  for (const std::string& text : options.measures) wanted.measure.push_back(to_threshold(text));
-  if (!wanted.asks() && options.improved.empty()) {
-    throw UsageError(
-        "nothing to check: give a threshold, --for PRESET or a second mesh (see tetmend check "
-        "--help)");
-  }
   std::vector<Fact> facts;
   Mesh mesh = load_to_check(options, options.file, parts);
   try {
@@ -120,10 +125,88 @@ int run_check(Options& options, const pieces::ArrayFiles* parts) {
   } catch (const OptionError& error) {
     throw UsageError("--" + message_of(error));
   }
-  const bool holds =
-      std::all_of(facts.begin(), facts.end(), [](const Fact& fact) { return fact.holds; });
-  print(options, facts, holds);
-  return holds ? kSuccess : kGoalMissed;
+  return facts;
+}
+
+bool all_hold(const std::vector<Fact>& facts) {
+  return std::all_of(facts.begin(), facts.end(), [](const Fact& fact) { return fact.holds; });
+}
+
+/// The name of a mesh, and what does not hold.
+void print_line(const Options& options, const std::vector<Fact>& facts) {
+  if (options.json) {
+    const nlohmann::json json = to_json(options, facts, all_hold(facts));
+    return say(stdout, printable_for("standard output", json).dump() + '\n');
+  }
+  std::vector<std::string> failed;
+  for (const Fact& fact : facts) {
+    if (!fact.holds) failed.push_back(printable(fact.text));
+  }
+  say_whether(failed.empty());
+  say(stdout, fmt::format("{}{}{}\n", shown(options.file), failed.empty() ? "" : ": ",
+                          fmt::join(failed, "; ")));
+}
+
+/// A line for each of several meshes, and one for the worst. One that cannot be read is named, and
+/// the others follow; the status is that of the worst.
+int check_each(Options& options, const std::vector<std::filesystem::path>& files,
+               const pieces::ArrayFiles* parts) {
+  if (!options.wanted.asks()) {
+    throw UsageError("several meshes are checked alike: give a threshold or --for PRESET");
+  }
+  for (const auto& file : files) check_input_format(file, parts);
+  options.improved.clear();
+  std::size_t unread = 0;
+  std::size_t failing = 0;
+  std::size_t most = 0;
+  std::string worst;
+  for (const auto& file : files) {
+    options.file = file;
+    try {
+      const std::vector<Fact> facts = facts_of(options, parts);
+      print_line(options, facts);
+      const auto failed = static_cast<std::size_t>(
+          std::count_if(facts.begin(), facts.end(), [](const Fact& fact) { return !fact.holds; }));
+      if (failed > 0) ++failing;
+      if (failed > most) worst = shown(file);
+      most = std::max(most, failed);
+    } catch (const UsageError&) {
+      throw;
+    } catch (const Error& error) {
+      ++unread;
+      complain(kFailed, error.what());
+    }
+  }
+  if (!options.json) {
+    const std::size_t good = files.size() - failing - unread;
+    say(stdout, fmt::format("{} of {} hold", grouped(good), grouped(files.size())));
+    say(stdout, failing == 0 ? "\n"
+                             : fmt::format("; the worst: {}, {} {}\n", worst, most,
+                                           most == 1 ? "fact fails" : "facts fail"));
+  }
+  return unread > 0 ? kFailed : failing > 0 ? kGoalMissed : kSuccess;
+}
+
+int run_check(Options& options, const pieces::ArrayFiles* parts) {
+  CheckOptions& wanted = options.wanted;
+  for (const std::string& text : options.measures) wanted.measure.push_back(to_threshold(text));
+  if (options.each || !options.more.empty()) {
+    std::vector<std::filesystem::path> files = {options.file};
+    if (!options.improved.empty()) files.push_back(options.improved);
+    files.insert(files.end(), options.more.begin(), options.more.end());
+    return check_each(options, files, parts);
+  }
+  name_streams(options.format, options.file, nullptr);
+  check_input_format(options.file, parts);
+  if (!options.improved.empty()) check_input_format(options.improved, parts);
+  if (!wanted.asks() && options.improved.empty()) {
+    throw UsageError(
+        "nothing to check: give a threshold, --for PRESET or a second mesh (see tetmend check "
+        "--help)");
+  }
+  const std::vector<Fact> facts = facts_of(options, parts);
+  print(options, facts, all_hold(facts));
+  return all_hold(facts) ? kSuccess : kGoalMissed;
 }
 
 std::string preset_help() {
@@ -142,15 +225,19 @@ void add_check(CLI::App& app, Invocation& invocation) {
   command->add_option("OUT", options->improved, "What became of it: compared with FILE")
       ->type_name("");
   command
+      ->add_option("MORE", options->more, "Three meshes and more are not compared: each is checked")
+      ->type_name("");
+  command->add_flag("--each", options->each, "Check two meshes each, instead of comparing them");
+  command
       ->add_option("--min-dihedral", options->wanted.min_dihedral,
                    "No smaller dihedral angle; 0 to 71")
       ->type_name("DEGREES")
-      ->check(CLI::Range(0.0, 71.0).description(""));
+      ->check(number_from(0.0, 71.0));
   command
       ->add_option("--max-dihedral", options->wanted.max_dihedral,
                    "No larger dihedral angle; 70 to 180")
       ->type_name("DEGREES")
-      ->check(CLI::Range(70.0, 180.0).description(""));
+      ->check(number_from(70.0, 180.0));
   command->add_flag(
       "--no-inverted", options->wanted.no_inverted,
       "No inverted or flat tet, in exact arithmetic, as the\nfile lists its vertices");
@@ -162,7 +249,8 @@ void add_check(CLI::App& app, Invocation& invocation) {
       ->take_all();
   command->add_option("--for", options->wanted.preset, "What a solver asks, see below")
       ->type_name("PRESET");
-  command->add_flag("--json", options->json, "Print JSON (docs/check.schema.json)");
+  command->add_flag("--json", options->json,
+                    "Print JSON (docs/check.schema.json); of several meshes a line each");
   add_format_option(*command, options->format);
   add_threads_option(*command, options->wanted.threads);
   command->footer(fmt::format(
@@ -174,12 +262,16 @@ the goal allows it, not more bad tets. Where inverted tets were mended, these
 two angles are shown and not asked for. Thresholds are then asked of OUT, and
 --for explicit or implicit that OUT is no dearer to solve on than FILE.
 
+Of three meshes and more, or with --each, thresholds and --for are asked of each
+one: a line each with what fails, one for the worst, and its status.
+
 Presets; all of them ask for no inverted tet:
 {}
 Examples:
   tetmend check part.mesh --min-dihedral 15 --max-dihedral 165 --no-inverted
   tetmend check part.vtu --for openfoam --json
   tetmend check part.mesh better.mesh
+  tetmend check --each --for fenicsx results/*.vtu
 
 {}
 Exit status: 0 all of it holds, 3 something does not, 1 a file cannot be read,

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
 // tetmend convert: the same mesh in another file format.
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 #include <tetmend/io.h>
 
 #include "apps/commands.h"
@@ -14,6 +16,7 @@
 #include "apps/piece_options.h"
 #include "apps/standard_streams.h"
 #include "apps/threads.h"
+#include "kernel/formats/packed_file.h"
 
 namespace tetmend::apps {
 namespace {
@@ -21,15 +24,37 @@ namespace {
 struct ConvertOptions {
   std::filesystem::path input;
   std::filesystem::path output;
+  std::vector<std::filesystem::path> more;
+  std::string extension;         ///< --to: of the outputs; all that is named is read
+  std::filesystem::path folder;  ///< --into: of the outputs; empty: that of the input
+  bool json = false;
   CarryOptions carry;
   std::string format;
   std::size_t parts = 0;
   int threads = 1;
 };
 
+/// What was written, in one line.
+void tell_written(const ConvertOptions& options, const Mesh& mesh,
+                  const std::vector<std::string>& notes) {
+  if (options.json) {
+    const nlohmann::json json = {{"input", shown(options.input)},
+                                 {"output", options.output.string()},
+                                 {"vertices", mesh.point_count()},
+                                 {"tets", mesh.tet_count()},
+                                 {"triangles", mesh.triangle_count()},
+                                 {"edges", mesh.edge_count()},
+                                 {"lost", notes}};
+    return say(stream_beside(options.output), printable_for("standard output", json).dump() + '\n');
+  }
+  say(stream_beside(options.output),
+      fmt::format("{}: {} vertices, {} tets, {} triangles, {} edges\n", options.output.string(),
+                  grouped(mesh.point_count()), grouped(mesh.tet_count()),
+                  grouped(mesh.triangle_count()), grouped(mesh.edge_count())));
+}
+
 /// No adjacency is built, so that a mesh of broken topology can be converted too.
-int run_convert(ConvertOptions& options, Invocation& invocation) {
-  name_streams(options.format, options.input, &options.output);
+int convert_one(const ConvertOptions& options, Invocation& invocation) {
   const pieces::ArrayFiles& parts = *invocation.array_files;
   if (options.parts > 0 && !parts.is_in_parts(options.output)) {
     throw UsageError("--pieces: OUT is no mesh in parts");
@@ -50,11 +75,62 @@ int run_convert(ConvertOptions& options, Invocation& invocation) {
   const Mesh mesh = load_for(options.input, options.output, options.threads, options.carry, notes);
   save(options.output, mesh, options.threads, options.carry.variant);
   invocation.wrote_files = true;
-  say(stream_beside(options.output),
-      fmt::format("{}: {} vertices, {} tets, {} triangles, {} edges\n", options.output.string(),
-                  grouped(mesh.point_count()), grouped(mesh.tet_count()),
-                  grouped(mesh.triangle_count()), grouped(mesh.edge_count())));
-  return 0;
+  tell_written(options, mesh, notes);
+  return kSuccess;
+}
+
+/// Where each of several goes.
+std::filesystem::path output_of(const ConvertOptions& options, const std::filesystem::path& input) {
+  std::filesystem::path plain = input;
+  if (formats::has_packed_name(plain)) plain.replace_extension();
+  plain.replace_extension(options.extension);
+  return options.folder.empty() ? plain : options.folder / plain.filename();
+}
+
+/// One that cannot be converted is named, and the others follow; the status is that of the worst.
+int convert_several(ConvertOptions& options, Invocation& invocation) {
+  std::vector<std::filesystem::path> files = {options.input};
+  if (!options.output.empty()) files.push_back(options.output);
+  files.insert(files.end(), options.more.begin(), options.more.end());
+  std::map<std::filesystem::path, std::filesystem::path> made;
+  for (const auto& file : files) {
+    const auto [before, is_new] = made.emplace(output_of(options, file), file);
+    check_mesh_extension(before->first);
+    if (is_new) continue;
+    throw UsageError(fmt::format("{}: {} and {} would be written there", before->first.string(),
+                                 before->second.string(), file.string()));
+  }
+  std::size_t failed = 0;
+  for (const auto& file : files) {
+    options.input = file;
+    options.output = output_of(options, file);
+    try {
+      convert_one(options, invocation);
+    } catch (const Error& error) {
+      ++failed;
+      complain(kFailed, error.what());
+    }
+  }
+  if (!options.json && files.size() > 1) {
+    say(stdout, fmt::format("{} of {} meshes converted\n", grouped(files.size() - failed),
+                            grouped(files.size())));
+  }
+  return failed > 0 ? kFailed : kSuccess;
+}
+
+int run_convert(ConvertOptions& options, Invocation& invocation) {
+  if (!options.extension.empty()) {
+    if (!options.extension.starts_with(".")) options.extension.insert(0, ".");
+    return convert_several(options, invocation);
+  }
+  if (options.output.empty())
+    throw UsageError("OUT is missing, or --to (see tetmend convert --help)");
+  if (!options.folder.empty()) throw UsageError("--into: it needs --to");
+  if (!options.more.empty()) {
+    throw UsageError("several meshes need --to, the extension of what is written");
+  }
+  name_streams(options.format, options.input, &options.output);
+  return convert_one(options, invocation);
 }
 
 }  // namespace
@@ -63,7 +139,18 @@ void add_convert(CLI::App& app, Invocation& invocation) {
   const auto options = std::make_shared<ConvertOptions>();
   CLI::App* command = app.add_subcommand("convert", "Write a mesh in another file format");
   command->add_option("IN", options->input, "Mesh to read")->required()->type_name("");
-  command->add_option("OUT", options->output, "File to write")->required()->type_name("");
+  command->add_option("OUT", options->output, "File to write; with --to another mesh to read")
+      ->type_name("");
+  command->add_option("MORE", options->more, "With --to: more meshes to read")->type_name("");
+  command
+      ->add_option(
+          "--to", options->extension,
+          "Read all that is named, and write each with this extension, such as vtu, beside "
+          "it")
+      ->type_name("EXT");
+  command->add_option("--into", options->folder, "With --to: folder for what is written")
+      ->type_name("FOLDER");
+  command->add_flag("--json", options->json, "Print JSON, a line for each mesh");
   add_carry_options(*command, options->carry);
   add_format_option(*command, options->format);
   add_threads_option(*command, options->threads);
@@ -85,6 +172,7 @@ Examples:
   tetmend convert part.ele part.meshb --strict
   tetmend convert part.mesh parts.pvtu --pieces 8
   tetmend convert part.vtu part.msh --variant "2.2 ASCII"
+  tetmend convert meshes/*.msh --to vtu --into converted
   mesher | tetmend convert - part.vtu --format msh
 
 Exit status: 0 success, 1 a file cannot be read or written, or --strict found

@@ -225,6 +225,29 @@ void note_peaks(ImproveReport& report, Ranks* ranks) {
   }
 }
 
+/// The run with a schedule that tries nothing: all that is looked at before the first attempt, and
+/// nothing written.
+int run_dry(const ImproveOptions& options, const Invocation& invocation) {
+  if (options.pieces.is_divided() || is_by_files(options, invocation)) {
+    throw UsageError("--dry-run: it takes one file, and none of --pieces, --memory, --checkpoint");
+  }
+  ProgressLine progress(!options.quiet);
+  ImproveReport report{.arguments = invocation.arguments, .options = options};
+  Mesh mesh = load_for(options.input, options.output, options.run.threads, options.carry,
+                       report.file_notes);
+  Options nothing = options.run;
+  nothing.script = "-- nothing is tried";
+  nothing.set.clear();
+  nothing.trace.clear();
+  report.result = tetmend::improve(mesh, nothing);
+  progress.clear();
+  if (options.quiet) return kSuccess;
+  say(stream_beside(options.output),
+      fmt::format("tetmend {}: {} -> {}, nothing is written\n{}", version(), options.input.string(),
+                  options.output.string(), format_prospect(report)));
+  return kSuccess;
+}
+
 }  // namespace
 
 int run_improve(ImproveOptions& options, Invocation& invocation) {
@@ -232,6 +255,7 @@ int run_improve(ImproveOptions& options, Invocation& invocation) {
   const bool is_first = invocation.ranks == nullptr || invocation.ranks->is_first();
   if (is_first) check_files(options, invocation.array_files);
   complete(options);
+  if (options.dry_run) return run_dry(options, invocation);
   check_reports(options, invocation);
   check_pieces(options, invocation);
   if (options.pieces.is_divided() || invocation.ranks != nullptr) reuse_memory();
@@ -250,9 +274,7 @@ int run_improve(ImproveOptions& options, Invocation& invocation) {
   invocation.wrote_files = true;
   progress.clear();
   if (!options.quiet) {
-    say(stream_beside(options.output),
-        fmt::format("tetmend {}: {} -> {}\n\n{}", version(), options.input.string(),
-                    options.output.string(), format_report(report)));
+    say(stream_beside(options.output), format_outcome(report));
   }
   if (report.result.ending == Ending::cancelled) {
     return complain(kInterrupted, "interrupted: wrote the mesh as improved so far");
@@ -270,10 +292,21 @@ void add_improve(CLI::App& app, Invocation& invocation) {
   const auto options = std::make_shared<ImproveOptions>();
   CLI::App* command = app.add_subcommand("improve", "Improve a mesh and keep its surface");
   add_improve_options(*command, *options);
+  if (invocation.ranks == nullptr) {
+    add_dry_run_option(*command, *options);
+    add_folder_option(*command);
+  }
   command->footer(fmt::format(
-      R"(Removes slivers and raises the worst dihedral angles. Prints the statistics
-before and after and the time of each pass, and checks that the surface is
-untouched and no tet got inverted. On a terminal a line shows the progress.
+      R"(Removes slivers and raises the worst dihedral angles. Checks that the surface is
+untouched and no tet got inverted, and prints the main figures before and after;
+with -v all of them and the time of each pass. On a terminal a line shows the
+progress, and how long a pass that takes long still needs.
+
+A file tetmend.conf of the folder in which the command runs holds options, a
+line each: "goal = 35", "keep-size = true", and comments behind #. What the
+command line says prevails, a line on standard error says what was taken, and
+--no-config takes nothing. Options that name files to be written, and --plugin,
+cannot stand there.
 
 An operator of a plugin that does not come back is named; two seconds after the
 time limit or Ctrl-C it ends the run with exit status 1, and no mesh is written.
@@ -304,6 +337,7 @@ Examples:
   tetmend improve part.ele -o better.vtk --report better.html --quiet
   tetmend improve part.mesh -o better.mesh --schedule my.lua --time-limit 60
   tetmend improve part.mesh -o better.mesh --protect label:3
+  tetmend improve part.mesh -o better.mesh --dry-run
   mesher | tetmend improve - -o - --format msh | solver
 
 Exit status: 0 success, 1 the work failed and OUT is as it was (but see above),

@@ -9,6 +9,7 @@
 #include "apps/commands.h"
 #include "apps/plugins.h"
 #include "apps/standard_streams.h"
+#include "kernel/nearest_word.h"
 
 namespace tetmend::apps {
 namespace {
@@ -86,7 +87,8 @@ const OperatorDescription& find_operator(const std::vector<OperatorDescription>&
     if (info.name == name) return info;
     valid += (valid.empty() ? "" : ", ") + info.name;
   }
-  throw UsageError(fmt::format("unknown operator '{}'; valid: {}", name, valid));
+  throw UsageError(
+      fmt::format("unknown operator '{}'; valid: {}{}", name, valid, guess_of(name, valid)));
 }
 
 struct OperatorsOptions {

@@ -12,10 +12,12 @@
 
 #include "apps/commands.h"
 #include "apps/files.h"
+#include "apps/help_formatter.h"
 #include "apps/improve_options.h"
 #include "apps/improve_report.h"
 #include "apps/improve_watched.h"
 #include "apps/mesh_formats.h"
+#include "apps/number_check.h"
 #include "apps/standard_streams.h"
 #include "explain/json_text.h"
 #include "kernel/formats/output_file.h"
@@ -216,10 +218,7 @@ int join(PiecesOptions& options, Invocation& invocation) {
   report.result = *result;
   report.peak_memory = platform::peak_memory();
   write_reports(improve.reports, report);
-  if (!improve.quiet) {
-    say(stdout, fmt::format("tetmend {}: {} -> {}\n\n{}", version(), improve.input.string(),
-                            improve.output.string(), format_report(report)));
-  }
+  if (!improve.quiet) say(stdout, format_outcome(report));
   return kSuccess;
 }
 
@@ -245,7 +244,13 @@ void add_pieces(CLI::App& app, Invocation& invocation) {
   command->add_option("STEP", options->step, "split, improve or join")
       ->required()
       ->type_name("")
-      ->check(CLI::IsMember({"split", "improve", "join"}));
+      ->check(CLI::Validator(
+          [](const std::string& step) {
+            const bool is_one = step == "split" || step == "improve" || step == "join";
+            return is_one ? std::string()
+                          : fmt::format("'{}' is none of split, improve, join", step);
+          },
+          ""));
   command->add_option("FOLDER", options->folder, "Folder of the run; new for split")
       ->required()
       ->type_name("");
@@ -261,7 +266,7 @@ void add_pieces(CLI::App& app, Invocation& invocation) {
   command
       ->add_option("--pieces", options->improve.pieces.pieces,
                    "split: into how many pieces, 2 to 65535;\nthe result depends on it")
-      ->check(CLI::Range(std::size_t{2}, std::size_t{65'535}).description(""))
+      ->check(number_from(std::size_t{2}, std::size_t{65'535}))
       ->type_name("N");
   command
       ->add_option("--share", options->share,
@@ -269,8 +274,7 @@ void add_pieces(CLI::App& app, Invocation& invocation) {
                    "divided by N")
       ->type_name("I/N");
   add_options_of_pieces(*command, options->improve);
-  add_trace_options(*command, options->improve.run);
-  add_check_option(*command, options->improve.run);
+  group_options(*command);
   command->footer(
       R"(A run has rounds: three divisions of the mesh, then up to four rounds of zones
 around the worst tets. 'split' divides the mesh for the first round. 'improve'

@@ -14,6 +14,7 @@
 #include "apps/commands.h"
 #include "apps/files.h"
 #include "apps/mesh_formats.h"
+#include "apps/number_check.h"
 #include "apps/report.h"
 #include "apps/standard_streams.h"
 #include "apps/threads.h"
@@ -236,7 +237,7 @@ void add_quality(CLI::App& app, Invocation& invocation) {
           "--list", options->list,
           "Name the worst N bad tets: number from 1, region,\ncentre, angles and why they resist")
       ->type_name("N")
-      ->check(CLI::Range(std::size_t{1}, std::size_t{1000000000}).description(""));
+      ->check(number_from(std::size_t{1}, std::size_t{1000000000}));
   command
       ->add_option("--cells", options->cells,
                    "Write the bad tets as a mesh of their own, with these\nfigures as arrays")
@@ -245,7 +246,7 @@ void add_quality(CLI::App& app, Invocation& invocation) {
   add_threads_option(*command, options->threads);
   command->footer(fmt::format(R"(The angles are those between the faces of a tet, in degrees.
   lambda          share of the angles that are <= 30 or >= 150
-  lambda_1..5     its parts: angles within 6, 6-12, ... 24-30 degrees of 0 or 180
+  lambda_1..5     its parts: angles within 6, 6-12 ... 24-30 degrees of 0 or 180
   q               minimum sine of the angles of a tet; a tet is bad if q < 0.5
   q_worst, q_aver the smallest q, and the mean over the bad tets
 In JSON the names are the same; histogram counts the angles by 5 degrees.

@@ -11,6 +11,7 @@
 #include "apps/commands.h"
 #include "apps/files.h"
 #include "apps/mesh_formats.h"
+#include "apps/number_check.h"
 #include "apps/standard_streams.h"
 #include "apps/threads.h"
 #include "envelope/features.h"
@@ -151,7 +152,7 @@ void add_features(CLI::App& command, SurfaceOptions& options, CLI::Option* bad) 
                   "Faces that bend by more degrees have a feature\n"
                   "line between them")
       ->capture_default_str()
-      ->check(CLI::Range(0.0, 180.0).description(""))
+      ->check(number_from(0.0, 180.0))
       ->needs(features);
   command
       .add_flag("--flat", options.flat,

@@ -7,6 +7,8 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
+#include "apps/help_formatter.h"
+
 namespace tetmend::apps {
 namespace {
 
@@ -19,6 +21,8 @@ nlohmann::json describe_option(const CLI::Option& option) {
           {"positional", is_positional ? option.get_name(true) : ""},
           {"value", option.get_expected_max() > 0 && !is_positional ? option.get_type_name() : ""},
           {"required", option.get_required()},
+          {"group", option.get_group()},
+          {"place", place_in_help(option)},
           {"repeatable", option.get_items_expected_max() > 1 ||
                              option.get_multi_option_policy() == CLI::MultiOptionPolicy::TakeAll},
           {"text", option.get_description()}};

@@ -21,6 +21,7 @@
 #include "kernel/formats/pending_file.h"
 #include "kernel/formats/run_files.h"
 #include "kernel/formats/standard_stream.h"
+#include "kernel/nearest_word.h"
 #include "kernel/printable.h"
 #include "pieces/rank_share.h"
 #include "pieces/run_folder.h"
@@ -47,9 +48,10 @@ std::string lower_extension(const std::filesystem::path& file) {
 void check_extension(const std::filesystem::path& file, std::span<const std::string_view> valid) {
   const std::string given = file.extension().string();
   if (std::find(valid.begin(), valid.end(), lower_extension(file)) != valid.end()) return;
-  throw UsageError(fmt::format("{}: the extension '{}' is not known here: expected {}{}",
-                               file.string(), given, valid.size() > 1 ? "one of " : "",
-                               fmt::join(valid, ", ")));
+  const std::string names = fmt::format("{}", fmt::join(valid, ", "));
+  throw UsageError(fmt::format("{}: the extension '{}' is not known here: expected {}{}{}",
+                               file.string(), given, valid.size() > 1 ? "one of " : "", names,
+                               guess_of(given, names)));
 }
 
 void add_format_option(CLI::App& command, std::string& format) {
@@ -197,10 +199,11 @@ void check_variant(const std::filesystem::path& output, const CarryOptions& opti
       std::find(known.begin(), known.end(), options.variant) != known.end()) {
     return;
   }
-  throw UsageError(fmt::format("--variant: '{}' is none of {}: expected {}", options.variant,
+  const std::string names = fmt::format("{}", fmt::join(known, ", "));
+  throw UsageError(fmt::format("--variant: '{}' is none of {}: expected {}{}", options.variant,
                                output.string(),
-                               known.empty() ? "nothing, there is only one"
-                                             : fmt::format("one of {}", fmt::join(known, ", "))));
+                               known.empty() ? "nothing, there is only one" : "one of " + names,
+                               guess_of(options.variant, names)));
 }
 
 void tell_lost(const std::filesystem::path& input, const std::vector<std::string>& lost,

@@ -2,6 +2,9 @@
 // The options of `tetmend improve`, from the command line to the library.
 #include "apps/improve_options.h"
 
+#include <algorithm>
+#include <cstdint>
+#include <functional>
 #include <string_view>
 
 #include <CLI/CLI.hpp>
@@ -9,8 +12,9 @@
 #include <tetmend/option_text.h>
 
 #include "apps/commands.h"
+#include "apps/help_formatter.h"
+#include "apps/option_help.h"
 #include "apps/plugins.h"
-#include "apps/threads.h"
 
 namespace tetmend::apps {
 namespace {
@@ -24,175 +28,107 @@ void set(Options& options, const std::string& name, const std::string& value) {
   }
 }
 
-/// What the library says the option takes.
-std::string value_of(std::string_view name) {
-  for (const OptionForm& form : option_forms()) {
-    if (form.name == name) return std::string(form.value);
+/// Adds an option of the library, as its row says.
+CLI::Option& add_form(CLI::App& command, Options& options, const OptionForm& form) {
+  const std::string name(form.name);
+  const auto set_one = [&options, name](const std::string& value) { set(options, name, value); };
+  const std::string letter = form.letter == '\0' ? "" : fmt::format("-{},", form.letter);
+  const std::string names = letter + "--" + name;
+  CLI::Option* added = nullptr;
+  if (form.is_switch()) {
+    added = command.add_flag_function(
+        names, [set_one](std::int64_t times) { set_one(times > 0 ? "true" : "false"); });
+  } else if (form.adds) {
+    added = command.add_option_function<std::vector<std::string>>(
+        names, [set_one](const std::vector<std::string>& values) {
+          std::for_each(values.begin(), values.end(), set_one);
+        });
+    added->allow_extra_args(false);  // so that IN may follow
+  } else {
+    added = command.add_option_function<std::string>(names, set_one);
   }
-  return {};
+  if (!form.is_switch()) added->type_name(std::string(form.value));
+  return *added->description(help_of(form))->group(heading_of(form.group));
 }
 
-/// Adds --NAME, which the library reads.
-CLI::Option* add_value(CLI::App& command, Options& options, const std::string& name,
-                       const std::string& help) {
-  return command
-      .add_option_function<std::string>(
-          "--" + name, [&options, name](const std::string& value) { set(options, name, value); },
-          help)
-      ->type_name(value_of(name));
-}
-
-/// The same for one that may be given several times.
-CLI::Option* add_values(CLI::App& command, Options& options, const std::string& name,
-                        const std::string& help) {
-  return command
-      .add_option_function<std::vector<std::string>>(
-          "--" + name,
-          [&options, name](const std::vector<std::string>& values) {
-            for (const std::string& value : values) set(options, name, value);
-          },
-          help)
-      ->type_name(value_of(name))
-      ->allow_extra_args(false);  // so that IN may follow
+/// An option that does nothing without another asks for it.
+void add_needs(CLI::App& command) {
+  for (const OptionForm& form : option_forms()) {
+    CLI::Option* const option = command.get_option_no_throw("--" + std::string(form.name));
+    if (option == nullptr || form.needs.empty()) continue;
+    option->needs(command.get_option("--" + std::string(form.needs)));
+  }
 }
 
 constexpr std::string_view kAdapt = "adapt";
 
-void add_schedule_options(CLI::App& command, ImproveOptions& options) {
+bool is_of_no_command(std::string_view name) {
+  return name == "script" || name == "limit";
+}
+
+bool is_of_adapt(std::string_view name) {
+  return name == "size" || name == "gradation" || name == "smallest" || name == "largest";
+}
+
+/// Tasks last as long as they last, and have no whole mesh.
+bool is_of_whole_meshes(std::string_view name) {
+  return name == "time-limit" || name == "keep-size" || name == "ignore-interior" ||
+         name == "straighten" || name == "trace-piece";
+}
+
+/// It has a second name, the usual one.
+void add_purpose(CLI::App& command, Options& run, const OptionForm& form) {
+  add_form(command, run, form)
+      .description("The same as --for")
+      ->group(heading_of(OptionGroup::search));
+  const auto set_purpose = [&run](const std::string& value) { set(run, "purpose", value); };
+  command.add_option_function<std::string>("--for", set_purpose)
+      ->type_name(std::string(form.value))
+      ->description(help_of(form))
+      ->group(heading_of(form.group));
+}
+
+/// @param has whether the command has the option of this name
+void add_forms(CLI::App& command, ImproveOptions& options,
+               const std::function<bool(std::string_view)>& has) {
   Options& run = options.run;
-  add_value(command, run, "schedule",
-            "What is tried in which order: one of\n"
-            "'tetmend schedules', or a script\n"
-            "(default: " +
-                run.schedule + ")");
-  add_values(command, run, "set",
-             "Value of a parameter of the schedule,\nsee 'tetmend schedules NAME'; may be\n"
-             "given several times");
-  add_value(command, run, "purpose",
-            "What the mesh is for: explicit, implicit,\nvolumes or angles (see docs/choosing.md;\n"
-            "default: any solver)");
-  command
-      .add_option_function<std::string>(
-          "--for", [&run](const std::string& value) { set(run, "purpose", value); },
-          "The same as --purpose")
-      ->type_name("NAME");
-  add_value(command, run, "goal",
-            "Degrees: no dihedral angle under MIN or\nover MAX (default: 30,150; MAX alone: "
-            "180\nless MIN). Tets that miss it are bad")
-      ->each([&options](const std::string& text) { options.goal = text; });
-  add_value(command, run, "measure",
-            "What tets are judged by: angles and needles,\nor with 'sine' angles alone, as "
-            "in the\npaper (default: sine_and_length)");
-}
-
-void add_time_limit(CLI::App& command, Options& run) {
-  add_value(command, run, "time-limit",
-            "Stop improving after that time and\nwrite what was reached");
-}
-
-void add_plugin_options(CLI::App& command, ImproveOptions& options) {
-  add_plugin_option(command, options.run.plugin);
-  command
-      .add_option("--attempt-limit", options.attempt_limit,
-                  "Say so when an attempt of a plugin takes\nlonger; 0: never (default: 10)")
-      ->type_name("SECONDS")
-      ->check(is_number_of_seconds);
-  add_check_option(command, options.run);
-}
-
-void add_layers_and_tets(CLI::App& command, Options& options) {
-  add_value(command, options, "layers",
-            "Boundary layers, prisms cut into tets, stay\n"
-            "as they are (keep, the default) or are\n"
-            "worked on like the rest (improve)");
-  CLI::Option* surface = add_value(command, options, "surface",
-                                   "How far the surface may move where it holds\n"
-                                   "bad tets: fixed (the default), flat (only\n"
-                                   "where no shape changes), 1% of the lengths\n"
-                                   "of edges there, or a length such as 0.01\n"
-                                   "(above 5% of the mesh's diagonal: 0.5!)");
-  add_value(command, options, "feature-angle",
-            "Lines along which faces bend by more stay\n"
-            "where they are (default: 40)")
-      ->needs(surface);
-  add_value(command, options, "tets",
-            "How far the mesh may grow: 10% more tets\nthan there were, or 500000 in all, not "
-            "less\nthan there are (default: 15%; with\nother schedules than shell and polish, "
-            "as\nfar as it pays)");
-}
-
-void add_protected_regions(CLI::App& command, Options& options) {
-  add_values(command, options, "protect", "Leave these tets as they are; repeatable");
-  add_values(command, options, "only", "Leave all other tets as they are; repeatable");
-}
-
-void add_conserve(CLI::App& command, Options& options) {
-  add_values(command, options, "conserve",
-             "Keep the integral of this array of the\ntets: new tets get the mean of the old "
-             "by\nshared volume; may be repeated");
-}
-
-void add_region_options(CLI::App& command, Options& options) {
-  add_protected_regions(command, options);
-  add_layers_and_tets(command, options);
-  if (options.schedule != kAdapt) {  // else lengths are those that are wanted
-    command.add_flag("--keep-size", options.keep_size,
-                     "Make no edge that is shorter than half or\nlonger than twice what edges are "
-                     "there in IN");
+  for (OptionForm form : option_forms()) {
+    if (is_of_no_command(form.name) || !has(form.name)) continue;
+    if (form.name == "schedule") form.initial = run.schedule;
+    if (form.name == "purpose") {
+      add_purpose(command, run, form);
+    } else if (form.name == "plugin") {
+      add_plugin_option(command, run.plugin);
+    } else {
+      add_form(command, run, form);
+    }
   }
-  command.add_flag("--ignore-interior", options.ignore_interior,
-                   "Drop the triangles, edges and required\n"
-                   "vertices that the file names inside a region");
-  command.add_flag("--straighten", options.straighten,
-                   "Second order: where tets stay turned over,\n"
-                   "make edges of the surface straight");
+  command.get_option("--goal")->each([&options](const std::string& text) { options.goal = text; });
+  add_needs(command);
+}
+
+void add_talk_options(CLI::App& command, ImproveOptions& options) {
+  CLI::Option* const quiet =
+      command.add_flag("-q,--quiet", options.quiet, "Print nothing but errors");
+  command
+      .add_flag(
+          "-v,--verbose", options.verbose,
+          "Print all figures, what holds the bad tets that are left, and the time of each pass")
+      ->excludes(quiet);
 }
 
 }  // namespace
 
-void add_check_option(CLI::App& command, Options& options) {
-  command.add_flag("--check-operators", options.check_operators,
-                   "Hold each attempt of a plugin to the contract\nof operators; slow, and in one "
-                   "thread");
-}
-
-void add_trace_options(CLI::App& command, Options& options) {
-  CLI::Option* trace = add_value(command, options, "trace",
-                                 "Record all that happens, for 'tetmend\ntrace'; the run uses one "
-                                 "thread then");
-  add_value(command, options, "trace-around",
-            "Record only attempts that aim at a vertex\nin a ball: around a point, or "
-            "around tet N\nof IN, counted from 0, one less than\nquality --list says (radius: its "
-            "longest edge,\nif not given)")
-      ->needs(trace);
-  add_values(command, options, "trace-operator",
-             "Record only attempts of this operator, with\nall that they call; may be "
-             "given several\ntimes")
-      ->needs(trace);
-  add_value(command, options, "trace-depth",
-            "Record only attempts with at most that many\nattempts around them; 0: the "
-            "outermost")
-      ->needs(trace);
-  add_value(command, options, "trace-limit",
-            "End the trace before it is larger, such as\n500M; the run goes on")
-      ->needs(trace);
-}
-
 void add_options_of_pieces(CLI::App& command, ImproveOptions& options) {
-  add_schedule_options(command, options);
-  add_plugin_option(command, options.run.plugin);
-  add_protected_regions(command, options.run);
-  add_layers_and_tets(command, options.run);
+  add_forms(command, options,
+            [](std::string_view name) { return !is_of_adapt(name) && !is_of_whole_meshes(name); });
   add_carry_options(command, options.carry);
-  add_conserve(command, options.run);
-  add_threads_option(command, options.run.threads);
   command
-      .add_option(
-          "--report", options.reports,
-          "join: write all that is printed at the end,\nand more, as .json; may be repeated")
+      .add_option("--report", options.reports,
+                  "join: write all that is printed at the end, and more, as .json; may be repeated")
       ->type_name("FILE")
       ->allow_extra_args(false);
-  command.add_flag("-q,--quiet", options.quiet, "Print nothing but errors");
+  add_talk_options(command, options);
 }
 
 std::string is_number_of_seconds(const std::string& text) {
@@ -207,42 +143,45 @@ void add_improve_options(CLI::App& command, ImproveOptions& options) {
   command.add_option("-o,--output", options.output, "File for the improved mesh; may be IN")
       ->required()
       ->type_name("OUT");
-  add_schedule_options(command, options);
-  add_time_limit(command, options.run);
-  add_plugin_options(command, options);
-  add_threads_option(command, options.run.threads);
+  const bool adapts = options.run.schedule == kAdapt;
+  add_forms(command, options, [adapts](std::string_view name) {
+    return adapts ? name != "keep-size" : !is_of_adapt(name);  // lengths are those wanted
+  });
+  command
+      .add_option("--attempt-limit", options.attempt_limit,
+                  "Say so when an attempt of a plugin takes longer; 0: never (default: 10)")
+      ->type_name("SECONDS")
+      ->check(is_number_of_seconds);
   add_piece_options(command, options.pieces);
-  add_region_options(command, options.run);
-  add_trace_options(command, options.run);
-  add_value(
-      command, options.run, "trace-piece",
-      "In pieces: which one is recorded, in which\nround (default: in round 1 the piece around "
-      "the\nplace of --trace-around, or the one with the\nworst tet)");
   add_carry_options(command, options.carry);
-  add_conserve(command, options.run);
   add_format_option(command, options.format);
   command
       .add_option(
           "--report", options.reports,
-          "Write all that is printed, and more: .json\nfor programs, .html with pictures, for a\n"
+          "Write all that is printed, and more: .json for programs, .html with pictures, for a "
           "browser; may be repeated")
       ->type_name("FILE")
       ->allow_extra_args(false);  // so that IN may follow
-  command.add_flag("-q,--quiet", options.quiet, "Print nothing but errors");
+  add_talk_options(command, options);
+  group_options(command);
+}
+
+void add_folder_option(CLI::App& command) {
+  command.add_flag("--no-config")->description("Take no options from tetmend.conf of this folder");
+  group_options(command);
+}
+
+void add_dry_run_option(CLI::App& command, ImproveOptions& options) {
+  command.add_flag(
+      "--dry-run", options.dry_run,
+      "Write nothing: say what would be kept, what is found, and what the surface forces");
+  group_options(command);
 }
 
 void add_adapt_options(CLI::App& command, ImproveOptions& options) {
   options.run.schedule = kAdapt;
-  Options& run = options.run;
-  add_values(command, run, "size",
-             "How long edges are to be, see below; may be\ngiven several times")
-      ->required();
-  add_value(command, run, "gradation",
-            "Lengths grow by at most this less 1 times the\ndistance; 0: as they like (default: "
-            "1.3)");
-  add_value(command, run, "smallest", "No length is wanted below that");
-  add_value(command, run, "largest", "No length is wanted above that");
   add_improve_options(command, options);
+  command.get_option("--size")->required();
   command.get_option("IN")->description("Mesh to adapt");
   command.get_option("--output")->description("File for the adapted mesh; may be IN");
 }

@@ -22,7 +22,9 @@ struct ImproveOptions {
   std::filesystem::path input;
   std::filesystem::path output;
   std::vector<std::filesystem::path> reports;  ///< .json, .html or .htm
+  bool verbose = false;
   bool quiet = false;
+  bool dry_run = false;
   CarryOptions carry;
   std::string format;         ///< of "-"
   Options run;                ///< what the library reads
@@ -36,15 +38,17 @@ std::string is_number_of_seconds(const std::string& text);
 
 void add_improve_options(CLI::App& command, ImproveOptions& options);
 
+/// --no-config, for commands that folder_options() knows.
+void add_folder_option(CLI::App& command);
+
+/// --dry-run, for a run that has the whole mesh in memory.
+void add_dry_run_option(CLI::App& command, ImproveOptions& options);
+
 /// The same, and those that say how long edges are to be.
 void add_adapt_options(CLI::App& command, ImproveOptions& options);
 
 /// Those that a run by `tetmend pieces` can have.
 void add_options_of_pieces(CLI::App& command, ImproveOptions& options);
-
-/// --trace and what belongs to it, and --check-operators. --trace-piece is not among them.
-void add_trace_options(CLI::App& command, Options& options);
-void add_check_option(CLI::App& command, Options& options);
 
 /// What is read besides the mesh: a schedule and plugins, also those that the environment names.
 /// @throws Error as all_plugins()

@@ -352,6 +352,109 @@ nlohmann::json worst_tets_to_json(const face::Portrait& portrait) {
 
 }  // namespace
 
+namespace {
+
+/// The few figures that most look for.
+std::string format_main_figures(const Result& result) {
+  std::string text;
+  const auto row = [&text](std::string_view name, const std::string& before,
+                           const std::string& after) {
+    text += fmt::format("{:<28} {:>14} {:>14}\n", name, before, after);
+  };
+  const MeshStatistics& before = result.before;
+  const MeshStatistics& after = result.after;
+  row("", "before", "after");
+  row("tets", grouped(before.tets), grouped(after.tets));
+  row("theta_min, degrees", decimal(before.theta_min, 4), decimal(after.theta_min, 4));
+  row("theta_max, degrees", decimal(before.theta_max, 4), decimal(after.theta_max, 4));
+  row("bad tets  (miss the goal)", grouped(before.n_bad), grouped(after.n_bad));
+  if (result.sizes_before && result.sizes_after) {
+    row("edges of the wanted length", share(result.sizes_before->in_range),
+        share(result.sizes_after->in_range));
+  }
+  return text;
+}
+
+/// Notes, those that are too many for a screen counted.
+std::string format_first_notes(const std::vector<std::string>& notes) {
+  constexpr std::size_t kMost = 4;
+  const std::size_t shown = notes.size() > kMost + 1 ? kMost : notes.size();
+  std::string text;
+  for (std::size_t i = 0; i < shown; ++i) text += printable(notes[i]) + '\n';
+  if (shown < notes.size()) {
+    text += fmt::format("and {} lines more, see -v\n", notes.size() - shown);
+  }
+  return text;
+}
+
+std::string format_summary(const ImproveReport& report) {
+  const Result& result = report.result;
+  std::string text = format_build(result.build) + format_main_figures(result);
+  const auto line = [&text](std::string_view name, const std::string& value) {
+    text += fmt::format("{:<21}{}\n", name, value);
+  };
+  line("surface", format_surface(result));
+  line("inverted, flat tets", format_orientation(result));
+  if (has_regions(report.options.run)) line("tets protected", grouped(result.protected_tets));
+  if (!result.sizes_after && !result.worse_than_before().empty()) {
+    line("worse than before", format_worse(result));
+  }
+  if (result.after.n_bad > 0 && result.limit && result.limit->n_forced > 0) {
+    line("bad tets left", fmt::format("at least {} of them are forced by the surface",
+                                      grouped(result.limit->n_forced)));
+  }
+  text += format_first_notes(result.notes);
+  if (result.ending == Ending::time_limit) line("time", "stopped by the time limit");
+  line("time",
+       fmt::format("{:.2f} s; more with -v, all with --report FILE.html", report.total_seconds()));
+  return text;
+}
+
+}  // namespace
+
+std::string format_outcome(const ImproveReport& report) {
+  const ImproveOptions& options = report.options;
+  return fmt::format("tetmend {}: {} -> {}\n{}", version(), options.input.string(),
+                     options.output.string(),
+                     options.verbose ? "\n" + format_report(report) : format_summary(report));
+}
+
+std::string format_prospect(const ImproveReport& report) {
+  const Result& result = report.result;
+  const Options& run = report.options.run;
+  const MeshStatistics& found = result.before;
+  std::string text = format_build(result.build);
+  const auto line = [&text](std::string_view name, const std::string& value) {
+    text += fmt::format("{:<21}{}\n", name, value);
+  };
+  line("tets", fmt::format("{}, {} of them bad", grouped(found.tets), grouped(found.n_bad)));
+  line("angles",
+       fmt::format("{} to {} degrees; goal: {:g} to {:g}", decimal(found.theta_min, 4),
+                   decimal(found.theta_max, 4), result.goal.min_angle, result.goal.max_angle));
+  line("inverted, flat tets", grouped(result.not_positive_before));
+  const bool moves = !run.surface.empty() && run.surface != "fixed";
+  line("surface", fmt::format("{} triangles, {}", grouped(found.boundary_triangles),
+                              moves ? "which may move: " + run.surface : "which stay bit for bit"));
+  if (result.layer_tets > 0) {
+    line("boundary layers",
+         fmt::format("{} tets are kept, {} of them bad", grouped(result.layer_tets),
+                     grouped(result.layer_bad_tets)));
+  }
+  if (has_regions(run)) {
+    line("tets protected", fmt::format("{}, {} of them bad", grouped(result.protected_tets),
+                                       grouped(result.protected_bad_tets)));
+  }
+  for (const CarriedArray& array : result.carried) {
+    line("data", fmt::format("'{}' of {}", printable(array.name), array.on));
+  }
+  if (result.limit) text += format_limit(*result.limit);
+  text += format_first_notes(result.notes);
+  line("not kept", report.file_notes.empty()
+                       ? "nothing of the file"
+                       : fmt::format("{}: see above", report.file_notes.size()));
+  return text;
+}
+
 std::string format_report(const ImproveReport& report) {
   const Result& result = report.result;
   std::string text = format_build(result.build);

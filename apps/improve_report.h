@@ -34,6 +34,12 @@ struct ImproveReport {
   double tets_per_second() const;
 };
 
+/// What is printed: what most want to know, in about ten lines, or all if the options say so.
+std::string format_outcome(const ImproveReport& report);
+
+/// Of a run that tried nothing: what a run would keep, what it found, what the surface forces.
+std::string format_prospect(const ImproveReport& report);
+
 /// All of it for people, at most 80 columns wide unless a file name is long.
 std::string format_report(const ImproveReport& report);
 

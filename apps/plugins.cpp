@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 #include <tetmend/error.h>
 
+#include "apps/option_help.h"
 #include "platform/platform.h"
 
 namespace tetmend::apps {
@@ -58,11 +59,7 @@ std::vector<path> plugins_of_environment() {
 }  // namespace
 
 void add_plugin_option(CLI::App& command, std::vector<std::filesystem::path>& plugins) {
-  command
-      .add_option("--plugin", plugins,
-                  "Load the operators of this shared library;\n"
-                  "may be repeated. TETMEND_PLUGIN_PATH names\n"
-                  "more: files, and folders for all *.so in them")
+  command.add_option("--plugin", plugins, help_of("plugin"))
       ->type_name("FILE")
       ->allow_extra_args(false);
 }

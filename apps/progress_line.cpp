@@ -38,9 +38,23 @@ void ProgressLine::show(const Progress& progress) {
   const Clock::time_point now = Clock::now();
   if (progress.phase.empty() || now - last_drawn_ < kRedrawInterval) return;
   last_drawn_ = now;
-  draw(fmt::format("round {:2}  {:<22} {:3.0f} %  bad {:>7}  worst {:7.4f}  {:.1f} s",
-                   progress.round, progress.phase, 100 * progress.share, progress.now.n_bad,
-                   progress.now.q_worst, std::chrono::duration<double>(now - start_).count()));
+  draw(fmt::format("round {:2}  {:<22} {:3.0f} %  bad {:>7}  worst {:7.4f}  {:.1f} s{}",
+                   progress.round, printable(progress.phase, 19), 100 * progress.share,
+                   progress.now.n_bad, progress.now.q_worst,
+                   std::chrono::duration<double>(now - start_).count(), rest_of(progress, now)));
+}
+
+std::string ProgressLine::rest_of(const Progress& progress, Clock::time_point now) {
+  constexpr double kLong = 5;           // seconds
+  constexpr double kLeastShare = 0.05;  // what is less tells little
+  if (progress.phase != phase_ || progress.share < share_) {
+    phase_ = progress.phase;
+    phase_start_ = now;
+  }
+  share_ = progress.share;
+  const double spent = std::chrono::duration<double>(now - phase_start_).count();
+  if (spent < kLong || share_ < kLeastShare) return {};
+  return fmt::format(", pass: {:.0f} s left", spent * (1 - share_) / share_);
 }
 
 void ProgressLine::note(std::string_view text) {

@@ -31,10 +31,15 @@ class ProgressLine {
  private:
   using Clock = std::chrono::steady_clock;
   void draw(std::string line);
+  /// How long a phase that takes long still needs, if it goes on as it did; empty: not known.
+  std::string rest_of(const Progress& progress, Clock::time_point now);
 
   bool active_;
   Clock::time_point start_ = Clock::now();
   Clock::time_point last_drawn_{};
+  std::string phase_;
+  Clock::time_point phase_start_{};
+  double share_ = 0;
   std::size_t drawn_width_ = 0;
 };
 

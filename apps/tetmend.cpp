@@ -23,10 +23,11 @@
 #include "apps/commands.h"
 #include "apps/description.h"
 #include "apps/files.h"
+#include "apps/folder_options.h"
 #include "apps/help_formatter.h"
 #include "apps/interruption.h"
-#include "apps/nearest_word.h"
 #include "apps/standard_streams.h"
+#include "kernel/nearest_word.h"
 #include "kernel/quality.h"
 #include "pieces/partitioned_files.h"
 #include "platform/platform.h"
@@ -43,7 +44,8 @@ std::unique_ptr<CLI::App> make_parser(Invocation& invocation) {
   app->set_version_flag("-V,--version", fmt::format("tetmend {}", version()));
   app->require_subcommand(1);
   app->allow_windows_style_options(false);  // /FOLDER/FILE is no option, there neither
-  app->formatter(std::make_shared<HelpFormatter>());
+  app->formatter(std::make_shared<HelpFormatter>(asks_for_short_help(invocation.arguments)));
+  app->set_help_flag("-h,--help", "What is usual with -h, all with --help");
   app->footer(fmt::format(
       R"(Mesh formats, by extension:
 {}
@@ -126,8 +128,13 @@ std::string describe(const CLI::ParseError& error, const CLI::App& app,
                        guess(word.substr(0, word.find('=')), list_options(command)),
                        chosen.empty() ? "" : " " + command.get_name());
   }
+  const bool lacks_output = message_of(error).starts_with("--output is missing");
+  if (lacks_output && !app.remaining(true).empty()) {
+    return fmt::format("{}: did you mean '-o {}'? (see tetmend {} --help)", message_of(error),
+                       app.remaining(true).front(), chosen.front()->get_name());
+  }
   if (!chosen.empty()) {
-    return fmt::format("{} (see tetmend {} --help)", error.what(), chosen.front()->get_name());
+    return fmt::format("{} (see tetmend {} --help)", message_of(error), chosen.front()->get_name());
   }
   const std::vector<std::string> names = list_subcommands(app);
   for (const std::string& argument : invocation.arguments) {
@@ -141,7 +148,7 @@ std::string describe(const CLI::ParseError& error, const CLI::App& app,
     return fmt::format("a subcommand is missing: expected one of {} (see tetmend --help)",
                        fmt::join(names, ", "));
   }
-  return fmt::format("{} (see tetmend --help)", error.what());
+  return fmt::format("{} (see tetmend --help)", message_of(error));
 }
 
 /// `tetmend help COMMAND` is `tetmend COMMAND --help`.
@@ -151,15 +158,43 @@ void ask_for_help(std::vector<std::string>& arguments, const CLI::App& app) {
   const bool is_known = arguments.size() == 1 &&
                         std::find(names.begin(), names.end(), arguments.front()) != names.end();
   if (!arguments.empty() && !is_known) {
-    throw UsageError(fmt::format("help: '{}' is no subcommand: expected one of {}",
-                                 fmt::join(arguments, " "), fmt::join(names, ", ")));
+    const std::string word = fmt::format("{}", fmt::join(arguments, " "));
+    const std::string all = fmt::format("{}", fmt::join(names, ", "));
+    throw UsageError(fmt::format("help: '{}' is no subcommand: expected one of {}{}", word, all,
+                                 guess_of(word, all)));
   }
   arguments.emplace_back("--help");
+}
+
+using Words = std::vector<std::string>;
+
+/// Parses twice: the command line alone says which command it is, and what of the folder's file it
+/// overrides.
+void take_folder_options(Invocation& invocation) {
+  Invocation alone;
+  alone.arguments = invocation.arguments;
+  const auto app = make_parser(alone);
+  try {
+    app->parse(Words(alone.arguments.rbegin(), alone.arguments.rend()));
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() == 0) return;  // help
+  }                                          // other mistakes are found again, and told
+  const std::vector<std::string> more = folder_options(*app);
+  if (more.empty()) return;
+  const CLI::App& command = *app->get_subcommands().front();
+  if (command.get_option("--quiet")->count() == 0) {
+    complain(kSuccess, fmt::format("{} says {}", kFolderFile, fmt::join(more, " ")));
+  }
+  // Behind the name of the command: what follows may begin with --.
+  Words& all = invocation.arguments;
+  const auto name = std::find(all.begin(), all.end(), command.get_name());
+  all.insert(name == all.end() ? name : name + 1, more.begin(), more.end());
 }
 
 int run(int argc, char** argv, Invocation& invocation) {
   invocation.arguments = platform::arguments(argc, argv);
   if (!invocation.arguments.empty()) invocation.arguments.erase(invocation.arguments.begin());
+  take_folder_options(invocation);
   const auto app = make_parser(invocation);
   if (!invocation.arguments.empty() && invocation.arguments.front() == "help") {
     ask_for_help(invocation.arguments, *app);
@@ -169,7 +204,6 @@ int run(int argc, char** argv, Invocation& invocation) {
     return kSuccess;
   }
   try {
-    using Words = std::vector<std::string>;
     app->parse(Words(invocation.arguments.rbegin(), invocation.arguments.rend()));  // last first
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app->exit(error);  // prints help or version

@@ -118,7 +118,8 @@ std::unique_ptr<CLI::App> make_parser(Invocation& invocation) {
       "tetmend-mpi");
   app->set_version_flag("--version", fmt::format("tetmend-mpi {}", version()));
   app->require_subcommand(1);
-  app->formatter(std::make_shared<HelpFormatter>());
+  app->formatter(std::make_shared<HelpFormatter>(asks_for_short_help(invocation.arguments)));
+  app->set_help_flag("-h,--help", "What is usual with -h, all with --help");
   app->footer(R"(Examples:
   mpirun -n 8 tetmend-mpi improve part.meshb -o better.meshb
   mpirun -n 64 --map-by ppr:1:node:PE=16 tetmend-mpi improve part.meshb
@@ -164,7 +165,7 @@ int run(int argc, char** argv, Ranks& ranks) {
   } catch (const CLI::ParseError& error) {
     if (!ranks.is_first()) return error.get_exit_code() == 0 ? kSuccess : kWrongUsage;
     if (error.get_exit_code() == 0) return app->exit(error);  // prints help or version
-    return complain(kWrongUsage, fmt::format("{} (see tetmend-mpi --help)", error.what()));
+    return complain(kWrongUsage, fmt::format("{} (see tetmend-mpi --help)", message_of(error)));
   }
   return invocation.action();
 }

@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <exception>
 #include <filesystem>
+#include <memory>
 #include <new>
 #include <optional>
 #include <string>
@@ -15,6 +16,8 @@
 #include <fmt/format.h>
 
 #include "apps/description.h"
+#include "apps/help_formatter.h"
+#include "apps/number_check.h"
 #include "apps/plugins.h"
 #include "apps/standard_streams.h"
 #include "explain/json_text.h"
@@ -269,7 +272,7 @@ void add_options(CLI::App& app, Options& options) {
   app.add_option("--scale", options.scale,
                  "Size of text and panels and width of lines, 0.5 to 4;\n1 is usual, 2 for 4K")
       ->type_name("FACTOR")
-      ->check(CLI::Range(0.5, 4.0).description(""));
+      ->check(number_from(0.5, 4.0));
   app.add_option("--report", options.report, "Write the last state as JSON on leaving")
       ->type_name("FILE.json");
   add_plugin_option(app, options.plugins);
@@ -305,6 +308,8 @@ int main(int argc, char** argv) {
       "tetmend-view shows a tetrahedral mesh and where it is bad, or a recorded run step by step.",
       "tetmend-view");
   app.set_version_flag("--version", "tetmend " TETMEND_VERSION);
+  app.formatter(std::make_shared<HelpFormatter>(
+      asks_for_short_help(std::vector<std::string>(argv + 1, argv + argc))));
   add_options(app, options);
   if (argc == 2 && argv[1] == kDescribe) {
     fmt::print("{}\n", describe(app, TETMEND_VERSION).dump(1));
@@ -315,7 +320,7 @@ int main(int argc, char** argv) {
     check_files(options);
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);
-    return complain(kWrongUsage, fmt::format("{} (see tetmend-view --help)", error.what()));
+    return complain(kWrongUsage, fmt::format("{} (see tetmend-view --help)", message_of(error)));
   }
   try {
     return run(options);

@@ -7,6 +7,8 @@
 #include <CLI/CLI.hpp>
 #include <tetmend/option_text.h>
 
+#include "apps/option_help.h"
+
 namespace tetmend::apps {
 
 void add_threads_option(CLI::App& command, int& threads) {
@@ -22,8 +24,7 @@ void add_threads_option(CLI::App& command, int& threads) {
             }
             threads = options.threads;
           },
-          "Worker threads, 1 to 1024 (default: 1); the\n"
-          "result is the same for every number")
+          help_of("threads"))
       ->type_name("N");
 }
 

@@ -30,6 +30,7 @@
 #include "kernel/formats/su2.h"
 #include "kernel/geometry.h"
 #include "kernel/grouped.h"
+#include "kernel/nearest_word.h"
 #include "kernel/shared_parts.h"
 #include "kernel/statistics.h"
 #include "kernel/tet_faces.h"
@@ -531,8 +532,9 @@ const Preset* find_preset(std::string_view name) {
     if (preset.shown.name == name) return &preset;
     names.push_back(preset.shown.name);
   }
-  throw OptionError("for", fmt::format("for: '{}' is no preset: expected one of {}", name,
-                                       fmt::join(names, ", ")));
+  throw OptionError("for", fmt::format("for: '{}' is no preset: expected one of {}{}", name,
+                                       fmt::join(names, ", "),
+                                       guess_of(name, fmt::format("{}", fmt::join(names, ", ")))));
 }
 
 std::size_t find_ruler(std::string_view name) {
@@ -541,8 +543,10 @@ std::size_t find_ruler(std::string_view name) {
     if (kRulers[i].name == name) return i;
     names.push_back(kRulers[i].name);
   }
-  throw OptionError("measure", fmt::format("measure: '{}' is no ruler: expected one of {}", name,
-                                           fmt::join(names, ", ")));
+  throw OptionError(
+      "measure",
+      fmt::format("measure: '{}' is no ruler: expected one of {}{}", name, fmt::join(names, ", "),
+                  guess_of(name, fmt::format("{}", fmt::join(names, ", ")))));
 }
 
 void check_range(const char* option, double value, double low, double high) {

@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include "kernel/nearest_word.h"
+
 namespace tetmend::face {
 
 namespace {
@@ -34,9 +36,9 @@ const Purpose& find_purpose(const Options& options) {
     return purpose.name == options.purpose;
   });
   if (found != kPurposes.end()) return *found;
-  throw OptionError("purpose", fmt::format("purpose: '{}' is none; valid: explicit, implicit, "
-                                           "volumes, angles",
-                                           options.purpose));
+  constexpr std::string_view kValid = "explicit, implicit, volumes, angles";
+  throw OptionError("purpose", fmt::format("purpose: '{}' is none; valid: {}{}", options.purpose,
+                                           kValid, guess_of(options.purpose, kValid)));
 }
 
 std::string tets_of(const Options& options) {

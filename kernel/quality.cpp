@@ -8,6 +8,7 @@
 #include <string>
 
 #include "kernel/error.h"
+#include "kernel/nearest_word.h"
 
 namespace tetmend {
 
@@ -85,7 +86,9 @@ Standard::Terms to_terms(std::string_view name) {
   for (const auto terms : {Standard::Terms::sine, Standard::Terms::sine_and_length}) {
     if (name == to_string(terms)) return terms;
   }
-  throw Error("unknown measure '" + std::string(name) + "'; valid: sine, sine_and_length");
+  constexpr std::string_view kValid = "sine, sine_and_length";
+  throw Error("unknown measure '" + std::string(name) + "'; valid: " + std::string(kValid) +
+              guess_of(name, kValid));
 }
 
 std::string_view to_string(Standard::Terms terms) {
@@ -204,7 +207,8 @@ const QualityMeasure& find_quality_measure(std::string_view name) {
     valid += valid.empty() ? "" : ", ";
     valid += measure.name;
   }
-  throw Error("unknown quality measure '" + std::string(name) + "'; valid: " + valid);
+  throw Error("unknown quality measure '" + std::string(name) + "'; valid: " + valid +
+              guess_of(name, valid));
 }
 
 }  // namespace tetmend

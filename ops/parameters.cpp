@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "kernel/error.h"
+#include "kernel/nearest_word.h"
 
 namespace tetmend {
 
@@ -22,8 +23,8 @@ ParameterValues::ParameterValues(std::string_view owner, std::span<const Paramet
       valid += specs[i++].name;
     }
     if (i == specs.size()) {
-      throw Error(fmt::format("{} has no parameter '{}'; valid: {}", owner, name,
-                              valid.empty() ? "none" : valid));
+      throw Error(fmt::format("{} has no parameter '{}'; valid: {}{}", owner, name,
+                              valid.empty() ? "none" : valid, guess_of(name, valid)));
     }
     const ParameterSpec& spec = specs[i];
     if (!(value >= spec.low && value <= spec.high)) {

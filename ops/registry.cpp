@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "kernel/error.h"
+#include "kernel/nearest_word.h"
 
 namespace tetmend {
 
@@ -97,7 +98,8 @@ std::size_t Registry::index_of(std::string_view name) const {
     valid += valid.empty() ? "" : ", ";
     valid += infos_[i]->name;
   }
-  throw Error(fmt::format("unknown operator '{}'; valid: {}", name, valid));
+  throw Error(
+      fmt::format("unknown operator '{}'; valid: {}{}", name, valid, guess_of(name, valid)));
 }
 
 const OperatorInfo& Registry::find(std::string_view name) const {

@@ -13,6 +13,7 @@
 #include <fmt/ranges.h>
 
 #include "kernel/error.h"
+#include "kernel/nearest_word.h"
 #include "kernel/printable.h"
 #include "schedule/lua_box.h"
 #include "schedule/lua_library.h"
@@ -79,8 +80,9 @@ std::string_view text_at(lua_State* lua, int index) {
     }
   }
   const char* name = lua_type(lua, 2) == LUA_TSTRING ? lua_tostring(lua, 2) : "?";
-  throw Error(fmt::format("unknown name '{}'; valid: {}", printable(name, kLongestName),
-                          fmt::join(valid, ", ")));
+  const std::string names = fmt::format("{}", fmt::join(valid, ", "));
+  throw Error(fmt::format("unknown name '{}'; valid: {}{}", printable(name, kLongestName), names,
+                          guess_of(name, names)));
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include <fmt/ranges.h>
 
 #include "kernel/error.h"
+#include "kernel/nearest_word.h"
 #include "schedule/builtin_schedules.h"
 #include "schedule/script_host.h"
 
@@ -31,8 +32,9 @@ Schedule Schedule::builtin(std::string_view name) {
   for (const BuiltinSchedule& schedule : builtin_schedules()) {
     if (schedule.name == name) return {std::string(name), std::string(schedule.text)};
   }
-  throw Error(fmt::format("there is no schedule '{}': expected {}, or the name of a .lua file",
-                          name, names_of(builtin_schedules())));
+  throw Error(fmt::format("there is no schedule '{}': expected {}, or the name of a .lua file{}",
+                          name, names_of(builtin_schedules()),
+                          guess_of(name, names_of(builtin_schedules()))));
 }
 
 Schedule Schedule::from_file(const std::filesystem::path& file) {
@@ -69,8 +71,9 @@ void check_settings(const ScheduleInfo& info, const ScheduleSettings& settings) 
         std::any_of(info.parameters.begin(), info.parameters.end(),
                     [&wanted = name](const auto& parameter) { return parameter.name == wanted; });
     if (!known) {
-      throw Error(fmt::format("schedule {} has no parameter '{}'; valid: {}", info.name, name,
-                              names_of(info.parameters)));
+      throw Error(fmt::format("schedule {} has no parameter '{}'; valid: {}{}", info.name, name,
+                              names_of(info.parameters),
+                              guess_of(name, names_of(info.parameters))));
     }
   }
   for (const ScheduleParameter& parameter : info.parameters) chosen_value(parameter, settings);

@@ -9,6 +9,7 @@
 
 #include "kernel/bounds.h"
 #include "kernel/error.h"
+#include "kernel/nearest_word.h"
 #include "kernel/printable.h"
 #include "kernel/statistics.h"
 #include "schedule/adapt.h"
@@ -330,8 +331,9 @@ ScriptHost::Arguments ScriptHost::read_arguments(const WordInfo& word, const Scr
         valid.push_back(spec.name);
       }
     }
-    throw Error(fmt::format("{} has no parameter '{}'; valid: {}", word.name, name,
-                            fmt::join(valid, ", ")));
+    const std::string names = fmt::format("{}", fmt::join(valid, ", "));
+    throw Error(fmt::format("{} has no parameter '{}'; valid: {}{}", word.name, name, names,
+                            guess_of(name, names)));
   }
   return arguments;
 }

@@ -10,6 +10,7 @@
 #include <fmt/ranges.h>
 
 #include "kernel/error.h"
+#include "kernel/nearest_word.h"
 
 namespace tetmend {
 
@@ -24,8 +25,9 @@ using Kind = ScriptValue::Kind;
 
 [[noreturn]] void refuse_name(const Subject& subject, std::string_view what,
                               const std::string& name, std::span<const std::string_view> valid) {
-  throw Error(fmt::format("{} has no {} '{}'; valid: {}", subject.text, what, name,
-                          fmt::join(valid, ", ")));
+  const std::string names = fmt::format("{}", fmt::join(valid, ", "));
+  throw Error(fmt::format("{} has no {} '{}'; valid: {}{}", subject.text, what, name, names,
+                          guess_of(name, names)));
 }
 
 double read_in_range(const Subject& subject, const ScriptValue& value, double low, double high) {

@@ -33,7 +33,7 @@ TAKES = {
     "--goal": "", "--time-limit": "", "--attempt-limit": "", "--threads": "", "--protect": "", "--only": "", "--tets": "",
     "--conserve": "", "--trace-piece": "", "--trace-around": "", "--trace-depth": "", "--trace-limit": "", "--label-array": "",
     "--min-dihedral": "", "--max-dihedral": "", "--list": "", "--tree": "", "--dot": "", "--at": "", "--extract": "",
-    "--pieces": "", "--memory": "", "--scratch": "file", "--checkpoint": "file", "STEP": "<step>", "FOLDER": "file", "MORE": "mesh", "--share": "",
+    "--pieces": "", "--memory": "", "--scratch": "file", "--checkpoint": "file", "STEP": "<step>", "--to": "<format>", "--into": "file", "FOLDER": "file", "MORE": "mesh", "--share": "",
     "--history": "<subject>", "--figure": "<drawing>", "--call": "", "--look": "", "--size": "", "adapt --size": ".sol .solb", "--gradation": "", "--smallest": "", "--largest": "", "--view": "", "--video": ".mp4", "--frames": "", "--title": "", "--background": "<background>", "--scale": "",
 }
 

@@ -20,6 +20,8 @@ class Option:
     positional: str
     value: str
     required: bool
+    group: str  # the heading under which help lists it
+    place: int  # in help
     repeatable: bool
     alone: bool  # of those that are, a command takes one at most
     text: str
@@ -51,6 +53,13 @@ class Command:
     def flags(self) -> list[Option]:
         return [option for option in self.options if option.names]
 
+    def groups(self) -> dict[str, list[Option]]:
+        """The flags by the headings of help, in its order: the usual ones, then others."""
+        found: dict[str, list[Option]] = {"Options": []}
+        for option in sorted(self.flags(), key=lambda option: option.place):
+            found.setdefault(option.group, []).append(option)
+        return found
+
     def positionals(self) -> list[Option]:
         return [option for option in self.options if not option.names]
 
@@ -65,17 +74,8 @@ class Command:
         return [block.split("\n") for block in re.split(r"\n\s*\n", self.text.strip("\n")) if block]
 
 
-def with_range_in_text(option: Option) -> Option:
-    """CLI11 adds type and range to the name of a value: "DEGREES:FLOAT in [0 - 71]"."""
-    option.value, _, extra = option.value.partition(":")
-    bounds = re.search(r"\[(\S+) - (\S+)\]", extra)
-    if bounds:
-        option.text += f"; {bounds[1]} to {bounds[2]}"
-    return option
-
-
 def to_command(data: dict) -> Command:
-    data["options"] = [with_range_in_text(Option(**option)) for option in data["options"]]
+    data["options"] = [Option(**option) for option in data["options"]]
     data["commands"] = [to_command(command) for command in data["commands"]]
     return Command(**data)
 

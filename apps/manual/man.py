@@ -112,7 +112,9 @@ def page(name: str, command: Command, version: str, date: str, others: list[str]
     out += headed("COMMANDS", [part for each in command.commands for part in
                                (".TP", f".BR {escaped(f'{title}-{each.name}')} (1)", escaped(each.purpose_line() + "."))])
     out += headed("ARGUMENTS", [part for each in command.positionals() for part in option_entry(each)])
-    out += headed("OPTIONS", [part for each in command.flags() for part in option_entry(each)])
+    for i, (group, options) in enumerate(command.groups().items()):
+        out += [".SH OPTIONS" if i == 0 else f".SS {escaped(group)}"]
+        out += [part for each in options for part in option_entry(each)]
     if alone := [each.label() for each in command.flags() if each.alone]:
         out += [".PP", f"At most one of {escaped(', '.join(alone))} is allowed."]
     out += headed("EXIT STATUS", status)

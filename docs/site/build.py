@@ -164,12 +164,13 @@ def section(title: str, text: str) -> str:
     for block in re.split(r"\n\s*\n", text.strip("\n")):
         lines = block.split("\n")
         head = lines[0].strip()
-        lists = re.match(r"^(Options|Positionals|\[Option Group.*|\[At most.*)", head)
+        lists = len(lines) > 1 and (head == "Arguments:" or re.match(r"  -", lines[1]))
         if head.startswith("Usage:"):
             out.append(f"```\n{head.removeprefix('Usage: ')}\n```\n")
         elif lists:
-            rows = [line for line in lines if not re.match(r"\s*(Options|Positionals):|\s*\[", line)]
-            for names, words in entries_of([line.removeprefix("  ") if head[0] == "[" else line for line in rows]):
+            if head not in ("Options:", "Arguments:"):
+                out.append(f"**{escaped(head.removesuffix(':'))}**\n")
+            for names, words in entries_of(lines[1:]):
                 if names.startswith("-"):
                     out.append(f"````{{option}} {signature(names)}\n{escaped(words)}\n````\n")
                 else:
@@ -188,7 +189,7 @@ def section(title: str, text: str) -> str:
 def options_of(program: Path, command: str) -> dict[str, str]:
     """What it says of its options, by their names with _ for -."""
     found = {}
-    for names, words in entries_of([line[2:] if line.startswith("    -") else line for line in help_of(program, command).splitlines()]):
+    for names, words in entries_of(help_of(program, command).splitlines()):
         long_name = re.search(r"--([a-z-]+)", names)
         if long_name and names.startswith("-"):
             found[long_name[1].replace("-", "_")] = escaped(words)

@@ -3,6 +3,7 @@
 // other languages.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -11,15 +12,25 @@
 
 namespace tetmend {
 
-/// An option that text can set.
+/// What options are about. Help lists them so.
+enum class OptionGroup : std::uint8_t { usual, change, search, data, record, plugins, other };
+
+/// An option that text can set: all that help, manuals and other languages say of it.
 struct OptionForm {
-  std::string_view name;   ///< as on the command line: "time-limit"
-  std::string_view value;  ///< what it takes: "SECONDS"; "true|false" of a switch
-  bool adds = false;       ///< a second value is put beside the first
+  std::string_view name;          ///< as on the command line: "time-limit"
+  std::string_view value;         ///< what it takes: "SECONDS"; "true|false" of a switch
+  bool adds = false;              ///< a second value is put beside the first
+  std::string_view help = {};     ///< what it does, one line however long
+  std::string_view initial = {};  ///< what holds without it, for people; empty: nothing to be said
+  std::string_view needs = {};    ///< the option without which it does nothing; empty: none
+  OptionGroup group = OptionGroup::other;
+  char letter = '\0';  ///< of its short form; 0: there is none
+
+  bool is_switch() const { return value == "true|false"; }
 };
 
-/// All that set_option() knows: the options of `tetmend improve` that are part of Options, and
-/// "script" and "limit".
+/// All that set_option() knows, in the order of help: the options of `tetmend improve` and `tetmend
+/// adapt` that are part of Options, and "script" and "limit".
 TETMEND_API std::vector<OptionForm> option_forms();
 
 /// Sets an option like `--NAME VALUE` of `tetmend improve`. A switch takes "true", "false" or "",

@@ -39,6 +39,7 @@
 #include "kernel/formats/vtk_legacy.h"
 #include "kernel/formats/vtk_roles.h"
 #include "kernel/formats/vtu.h"
+#include "kernel/nearest_word.h"
 #include "kernel/second_order.h"
 
 namespace tetmend {
@@ -239,8 +240,9 @@ const Codec& find_codec(const std::filesystem::path& file) {
     valid += valid.empty() ? "" : ", ";
     valid += kFormatsTable[i].extension;
   }
-  throw Error(fmt::format("{}: the extension '{}' is not that of a mesh format: expected one of {}",
-                          file.string(), file.extension().string(), valid));
+  throw Error(fmt::format(
+      "{}: the extension '{}' is not that of a mesh format: expected one of {}{}", file.string(),
+      file.extension().string(), valid, guess_of(file.extension().string(), valid)));
 }
 
 /// A mesh of MFEM stays one under the name .mesh, too.

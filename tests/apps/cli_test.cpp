@@ -226,7 +226,7 @@ TEST_CASE("improving each asset keeps its surface and reports what happened") {
     const std::string out = (folder / name).string();
     const std::string report_file = (folder / "report.json").string();
     const Outcome outcome =
-        run_program({"improve", asset(name), "-o", out, "--report", report_file});
+        run_program({"improve", asset(name), "-o", out, "-v", "--report", report_file});
     CAPTURE(outcome.err);
     REQUIRE(outcome.status == 0);
     CHECK(outcome.err.empty());

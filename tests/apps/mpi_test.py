@@ -76,7 +76,7 @@ def any_number_of_ranks(folder, expected):
     done = run(*mpi(3, *improve(folder, "-q")), TETMEND_MPI_FIRST_VERTEX_ID=str(2**33))
     check(done.returncode == 0 and taken(folder) == expected, "ids of vertices show", done.stderr)
     report = folder / "report.json"
-    done = run(*mpi(2, *improve(folder, "--report", report)))
+    done = run(*mpi(2, *improve(folder, "-v", "--report", report)))
     check("worse than before    nothing" in done.stdout, "there is no report", done.stdout)
     check(json.loads(report.read_text())["after"]["n_bad"] == 0, "bad tets are left")
     check(done.stdout.count("peak memory") == 1, "not one rank alone reports")
@@ -266,7 +266,7 @@ def arrays_of_hdf5(folder):
         check(len(improved) == 1, "ranks or the format of the input show in improved arrays", more)
         done = run("mpirun", "-n", 2, MPI_PROGRAM, "convert", folder / "improved.h5", out)
         check(out.read_bytes() == expected.read_bytes(), "other arrays to .h5", more, done.stderr)
-    done = run(*mpi(2, folder / "data.h5", "-o", folder / "report.h5", "--pieces", 3))
+    done = run(*mpi(2, folder / "data.h5", "-o", folder / "report.h5", "--pieces", 3, "-v"))
     check(done.stdout.count("data of points 'a/b': linear in the old mesh") == 1, "no report of arrays", done.stdout)
     done = run(*mpi(2, folder / "data.h5", "-o", folder / "report.h5", "--pieces", 3, "--conserve", "id", "-q"))
     check(done.returncode != 0 and "id" in done.stderr, "integers are conserved", done.stderr)
@@ -365,7 +365,7 @@ def tasks(folder, expected):
     while not json.loads((work / "plan.json").read_text())["finished"]:
         both = [subprocess.Popen([PROGRAM, "pieces", "improve", str(work), "-q", "--share", f"{i}/2"]) for i in (0, 1)]
         check([each.wait() for each in both] == [0, 0], "a share")
-        done = run(PROGRAM, "pieces", "join", work)
+        done = run(PROGRAM, "pieces", "join", work, "-v")
         check(done.returncode == 0, "join", done.stderr)
         rounds += 1
     check(3 <= rounds <= 6 and "worse than before    nothing" in done.stdout, "rounds", rounds, done.stdout)

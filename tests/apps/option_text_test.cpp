@@ -39,8 +39,9 @@ TEST_CASE(
       run_program({"improve", "--help"}).out + run_program({"adapt", "--help"}).out;
   // Those that are about files, the terminal, pieces, and the program's watch over plugins.
   const std::set<std::string> of_the_program = {
-      "help",    "output",        "report", "quiet",  "strict",  "label-array", "format",
-      "variant", "attempt-limit", "pieces", "memory", "scratch", "checkpoint",  "for"};
+      "help",   "output",  "report",  "quiet",      "strict",    "label-array",
+      "format", "variant", "verbose", "dry-run",    "no-config", "attempt-limit",
+      "pieces", "memory",  "scratch", "checkpoint", "for"};
   const std::set<std::string> of_the_library = {"script", "limit"};
   std::set<std::string> names;
   const std::regex option(R"(\n +(?:-\w,\s*)?--([a-z-]+))");
@@ -60,6 +61,24 @@ TEST_CASE(
   for (const std::string& name : names) {
     CAPTURE(name);
     CHECK(of_the_program.contains(name));
+  }
+}
+
+TEST_CASE("what help says of an option of the library is what its row says") {
+  std::string help = run_program({"improve", "--help"}).out + run_program({"adapt", "--help"}).out;
+  help = std::regex_replace(help, std::regex("\\s+"), " ");
+  std::set<std::string_view> names;
+  for (const OptionForm& form : option_forms()) names.insert(form.name);
+  for (const OptionForm& form : option_forms()) {
+    CAPTURE(form.name);
+    CHECK(!form.help.empty());
+    CHECK((form.needs.empty() || names.contains(form.needs)));
+    CHECK(form.group == OptionGroup::other == (form.name == "script" || form.name == "limit"));
+    if (form.group == OptionGroup::other) continue;
+    const std::string_view begin = form.help.substr(0, form.help.size() - 1);  // may go on
+    CHECK(help.find(begin) != std::string::npos);
+    if (!form.initial.empty())
+      CHECK(help.find("default: " + std::string(form.initial)) != std::string::npos);
   }
 }
 

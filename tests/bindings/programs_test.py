@@ -53,7 +53,7 @@ def programs(name: str) -> list[Path]:
 
 def improve(mesh: Path, *options: str) -> tuple[bytes, dict, str]:
     """What the command line makes of a mesh: the file, the report, and the text."""
-    run = call(TETMEND, "improve", mesh, "-o", "expected.mesh", "--report", "report.json", *options)
+    run = call(TETMEND, "improve", mesh, "-o", "expected.mesh", "-v", "--report", "report.json", *options)
     assert run.returncode in (0, 3), run.stderr  # 3: a tet misses the goal
     return (WORK / "expected.mesh").read_bytes(), json.loads((WORK / "report.json").read_text()), run.stdout
 

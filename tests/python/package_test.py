@@ -353,7 +353,7 @@ def test_names_of_any_bytes_are_text(tmp_path):
 
 def test_options_are_those_of_the_library():
     from tetmend._options import Options
-    known = {name.replace("-", "_") for name, _, _ in _core.option_forms()}
+    known = {name.replace("-", "_") for name, _, _, _ in _core.option_forms()}
     assert known == set(Options.__annotations__) | {"tets"}
 
 

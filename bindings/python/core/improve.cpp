@@ -179,9 +179,9 @@ void add_improve(py::module_& module) {
   module.def(
       "check_options", [](const Settings& settings) { check(to_options(settings)); }, "settings"_a);
   module.def("option_forms", [] {
-    std::vector<std::tuple<std::string, std::string, bool>> made;
+    std::vector<std::tuple<std::string, std::string, bool, std::string>> made;
     for (const OptionForm& form : option_forms()) {
-      made.emplace_back(form.name, form.value, form.adds);
+      made.emplace_back(form.name, form.value, form.adds, form.needs);
     }
     return made;
   });

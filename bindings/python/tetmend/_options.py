@@ -55,11 +55,6 @@ class Options(TypedDict, total=False):
     limit: bool
 
 
-# Without the second, the first would do nothing.
-_NEEDS = {"trace_piece": "trace", "trace_around": "trace", "trace_operator": "trace", "trace_depth": "trace", "trace_limit": "trace",
-          "feature_angle": "surface"}
-
-
 def _to_text(value: Any) -> str:
     if isinstance(value, (bool, np.bool_)):
         return "true" if value else "false"
@@ -102,10 +97,11 @@ def to_settings(options: Mapping[str, Any]) -> list[tuple[str, str]]:
     Traceback (most recent call last):
     TypeError: improve() has no option 'shedule': did you mean 'schedule'?
     """
-    adds = {name.replace("-", "_"): several for name, _, several in _core.option_forms()}
+    forms = {name.replace("-", "_"): (several, needed) for name, _, several, needed in _core.option_forms()}
+    adds = {name: several for name, (several, _) in forms.items()}
     given = {name for name, value in options.items() if value is not None}
-    for name, needed in _NEEDS.items():
-        if name in given and needed not in given:
+    for name, (_, needed) in forms.items():  # without the second, the first would do nothing
+        if needed and name in given and needed not in given:
             raise _core.OptionError(f"{name}: it needs the option {needed}")
     if {"schedule", "script"} <= given:
         raise _core.OptionError("script: it stands in the place of a schedule, and there is one: give one of them")

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "apps/nearest_word.h"
+#include "kernel/nearest_word.h"
 
 #include <algorithm>
 #include <vector>
 
 #include <fmt/format.h>
 
-namespace tetmend::apps {
+namespace tetmend {
 
 namespace {
 
@@ -44,9 +44,21 @@ std::string nearest_word(std::string_view word, std::span<const std::string> can
   return nearest;
 }
 
+std::string guess_of(std::string_view word, std::string_view valid) {
+  constexpr std::string_view kBetween = ", ";
+  std::vector<std::string> candidates;
+  while (!valid.empty()) {
+    const std::size_t end = std::min(valid.find(kBetween), valid.size());
+    candidates.emplace_back(valid.substr(0, end));
+    valid.remove_prefix(std::min(end + kBetween.size(), valid.size()));
+  }
+  const std::string nearest = nearest_word(word, candidates);
+  return nearest.empty() ? "" : fmt::format("; did you mean '{}'?", nearest);
+}
+
 std::string guess(std::string_view word, std::span<const std::string> candidates) {
   const std::string nearest = nearest_word(word, candidates);
   return nearest.empty() ? "" : fmt::format(": did you mean '{}'?", nearest);
 }
 
-}  // namespace tetmend::apps
+}  // namespace tetmend

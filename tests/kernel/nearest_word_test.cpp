@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: MIT
 // Guesses at mistyped words.
-#include "apps/nearest_word.h"
+#include "kernel/nearest_word.h"
 
 #include <string>
 #include <vector>
 
 #include <doctest/doctest.h>
 
-using tetmend::apps::guess;
-using tetmend::apps::nearest_word;
+using tetmend::guess;
+using tetmend::guess_of;
+using tetmend::nearest_word;
 
 namespace {
 
@@ -33,4 +34,11 @@ TEST_CASE("another word is no slip") {
   CHECK(nearest_word(std::string(10'000, 'a'), kNames).empty());
   CHECK(guess("smooth", kNames).empty());
   CHECK(nearest_word("check", {}).empty());
+}
+
+TEST_CASE("behind a list of what is valid the nearest of it is asked for") {
+  CHECK(guess_of("edge_slit", "edge_split, flip_2_3") == "; did you mean 'edge_split'?");
+  CHECK(guess_of("flip_2_4", "edge_split, flip_2_3") == "; did you mean 'flip_2_3'?");
+  CHECK(guess_of("smooth", "edge_split, flip_2_3").empty());
+  CHECK(guess_of("smooth", "").empty());
 }
