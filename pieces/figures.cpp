@@ -100,6 +100,7 @@ void Figures::add(const Figures& other) {
   surface += other.surface;
   not_positive += other.not_positive;
   peculiar += other.peculiar;
+  constrained_faces += other.constrained_faces;
   layer_tets += other.layer_tets;
   touched += other.touched;
   protected_tets += other.protected_tets;
@@ -137,10 +138,11 @@ std::optional<std::size_t> find_again(const Piece& gathered, std::size_t tet) {
 }
 
 /// @throws Error with the number in the file of a tet that does not fit
-TetMesh build_first(const Piece& gathered, BuildReport& report) {
+TetMesh build_first(const Piece& gathered, BuildReport& report,
+                    std::vector<std::uint32_t>* numbers = nullptr) {
   MeshData data = to_data(gathered);
   try {
-    return TetMesh::build(data, {.report = &report});
+    return TetMesh::build(data, {.report = &report, .tet_numbers = numbers});
   } catch (const BuildError& error) {
     const auto number_of = [&](std::size_t t) {
       return gathered.tets[t].origin & ~PieceTet::kProtected;
@@ -196,6 +198,35 @@ TetMesh build_own(const Piece& own, std::vector<std::uint32_t>* numbers) {
   return TetMesh::build(data, {.report = nullptr, .tet_numbers = numbers});
 }
 
+/// Bad tets with an own vertex, the protected ones apart, and what holds them.
+void find_holders(TetMesh& mesh, std::span<const std::uint32_t> numbers, const Piece& gathered,
+                  const OwnOf& own, const Standard& standard, Survey& survey) {
+  mesh.set_standard(standard);
+  mesh.freeze([&](TetHandle t) { return gathered.tets[numbers[t.index()]].is_protected(); });
+  const face::HolderSearch search(mesh, [&](VertexHandle v) { return own.has(v); });
+  for (const HalfFace face : search.named_faces()) {
+    survey.held.named_faces += own.has(mesh.vertices(face)) ? 1 : 0;
+  }
+  mesh.visit_below(kBadThreshold, 0, mesh.tet_slots(), [&](TetHandle t) {
+    const TetVertices& v = mesh.vertices(t);
+    const auto is_mine = [&](VertexHandle w) { return own.has(w); };
+    if (mesh.is_frozen(t) || std::none_of(v.begin(), v.end(), is_mine)) return;
+    const face::Holders holders = search.find(t);
+    if (std::all_of(v.begin(), v.end(), is_mine)) return survey.held.add(holders);
+    const auto id = [&](unsigned i) { return gathered.ids[mesh.origin(v[i])]; };
+    std::array<unsigned, 4> order = {0, 1, 2, 3};
+    std::sort(order.begin(), order.end(), [&](unsigned a, unsigned b) { return id(a) < id(b); });
+    SharedTet& shared = survey.shared.emplace_back();
+    shared.holders = holders;
+    shared.holders.at_surface = 0;
+    for (unsigned i = 0; i < 4; ++i) {
+      shared.vertices[i] = id(order[i]);
+      const unsigned bit = (unsigned{holders.at_surface} >> order[i]) & 1U;
+      shared.holders.at_surface |= static_cast<std::uint8_t>(bit << i);
+    }
+  });
+}
+
 /// What is asked of a mesh that has all tets at the own faces and vertices.
 void measure_all(const TetMesh& mesh, const OwnOf& own, Survey* survey, Figures& figures) {
   const auto is_own_face = [&](const std::array<VertexHandle, 3>& face) { return own.has(face); };
@@ -204,9 +235,11 @@ void measure_all(const TetMesh& mesh, const OwnOf& own, Survey* survey, Figures&
   for (std::uint32_t slot = 0; slot < mesh.tet_slots(); ++slot) {
     for (unsigned f = 0; f < 4; ++f) {
       const HalfFace face(TetHandle(slot), f);
-      if (mesh.is_boundary(face) && own.has(mesh.vertices(face))) {
-        ++figures.statistics.boundary_triangles;
-      }
+      const HalfFace twin = mesh.twin(face);
+      const bool is_inner = !twin.is_outside();
+      if (is_inner && (twin < face || !mesh.is_constrained(face))) continue;
+      if (!own.has(mesh.vertices(face))) continue;
+      ++(is_inner ? figures.constrained_faces : figures.statistics.boundary_triangles);
     }
   }
   if (survey == nullptr) return;
@@ -221,12 +254,17 @@ Figures measure_own(const Piece& gathered, const Parting& parting, std::uint32_t
   Figures figures;
   if (!gathered.tets.empty()) {
     BuildReport report;
-    const TetMesh mesh = build_first(gathered, report);
+    std::vector<std::uint32_t> numbers;
+    TetMesh mesh = build_first(gathered, report, &numbers);
     figures.peculiar = report.reordered_tets + report.inverted_tets + report.flat_tets +
                        (report.mirrored ? gathered.tets.size() : 0);
-    measure_all(mesh, OwnOf(mesh, gathered, parting, number), survey, figures);
+    const OwnOf own(mesh, gathered, parting, number);
+    measure_all(mesh, own, survey, figures);
     if (surface != nullptr) {
       figures.misfits = surface->count_misfits(mesh, gathered, parting, number);
+    }
+    if (survey != nullptr && survey->finds_holders) {
+      find_holders(mesh, numbers, gathered, own, standard, *survey);
     }
   }
   const Piece own = own_part(gathered, parting, number);
@@ -298,7 +336,39 @@ std::array<double, kRulerCount> find_one_percent(const RulerShare& all, WorstSco
 
 }  // namespace
 
-void add_rulers(Survey survey, Ranks& ranks, Measured& measured) {
+namespace {
+
+/// Of all ranks: what each piece knows of a tet comes together.
+face::Held gather_held(const Survey& survey, Ranks& ranks) {
+  std::string mine;
+  put(survey.held, mine);
+  put(survey.shared, mine);
+  face::Held all;
+  std::vector<SharedTet> shared;
+  for (const std::string& from : ranks.gather(mine)) {
+    std::string_view rest = from;
+    face::Held held;
+    std::vector<SharedTet> tets;
+    take(rest, held);
+    take(rest, tets);
+    all.add(held);
+    shared.insert(shared.end(), tets.begin(), tets.end());
+  }
+  std::sort(shared.begin(), shared.end(),
+            [](const SharedTet& a, const SharedTet& b) { return a.vertices < b.vertices; });
+  for (std::size_t i = 0; i < shared.size();) {
+    face::Holders holders;
+    const std::array<VertexId, 4> vertices = shared[i].vertices;
+    for (; i < shared.size() && shared[i].vertices == vertices; ++i) holders.add(shared[i].holders);
+    all.add(holders);
+  }
+  return all;
+}
+
+}  // namespace
+
+void add_survey(Survey survey, Ranks& ranks, Measured& measured) {
+  if (survey.finds_holders) measured.held = gather_held(survey, ranks);
   const RulerShare& all = measured.figures.rulers;
   measured.rulers = rulers_of(all, find_one_percent(all, survey.worst, ranks));
   const std::span<double> lengths = survey.lengths.lengths();

@@ -2,12 +2,15 @@
 // What the checks before and after a run in pieces add up.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
+#include "face/advice.h"
 #include "face/growth.h"
 #include "kernel/bounds.h"
 #include "kernel/ruler_shares.h"
@@ -24,7 +27,8 @@ struct Figures {
   MeshStatistics statistics;  ///< of the own tets
   std::uint64_t surface = 0;  ///< part of surface_fingerprint()
   std::size_t not_positive = 0;
-  std::size_t peculiar = 0;  ///< tets that building turned round, inverted and flat ones
+  std::size_t peculiar = 0;           ///< tets that building turned round, inverted and flat ones
+  std::size_t constrained_faces = 0;  ///< interior ones
   std::size_t layer_tets = 0;
   std::size_t touched = 0;  ///< tets that the file does not have, or with a vertex that has moved
   std::size_t protected_tets = 0;      ///< by the user
@@ -35,18 +39,28 @@ struct Figures {
   void add(const Figures& other);
 };
 
+/// A bad tet that several pieces have, and what one of them knows of it.
+struct SharedTet {
+  std::array<VertexId, 4> vertices{};  ///< ascending; holders have their bits in this order
+  face::Holders holders;
+};
+
 /// What no sum has, over the pieces of a rank.
 struct Survey {
   WorstScores worst;
   face::LocalLengths lengths;
   VertexId first_id = 0;       ///< of vertices of the file
   std::uint64_t vertices = 0;  ///< of the file
+  bool finds_holders = false;  ///< of bad tets
+  face::Held held = {};
+  std::vector<SharedTet> shared = {};
 };
 
 /// How much of a mesh is measured besides its Figures.
 struct Wanted {
   bool rulers = false;         ///< and how lengths have changed
   bool histograms = false;     ///< of rulers
+  bool holders = false;        ///< of bad tets
   std::uint64_t vertices = 0;  ///< of the file
   std::uint64_t tets = 0;      ///< likewise; 0: not known, which takes more memory
 };
@@ -57,13 +71,15 @@ struct Measured {
   std::optional<MeshRulers> rulers;
   std::optional<RulerHistograms> histograms;
   face::LocalLengths lengths;
+  face::Held held;  ///< not in bytes
 };
 void append(const Measured& measured, std::string& bytes);
 /// @throws Error when the bytes end too early.
 Measured take_measured(std::string_view& bytes);
 
-/// All ranks: fills rulers and lengths, which are the same on all. Precondition: figures are of all.
-void add_rulers(Survey survey, Ranks& ranks, Measured& measured);
+/// All ranks: fills rulers, lengths and what holds bad tets; they are the same on all. Precondition:
+/// figures are of all.
+void add_survey(Survey survey, Ranks& ranks, Measured& measured);
 
 /// Of the own tets, for the standard. The same whoever asks: of the coordinates in the order of the piece.
 Bounds bounds_of_own(const Piece& gathered, const Parting& parting, std::uint32_t number,

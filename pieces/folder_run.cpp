@@ -292,13 +292,15 @@ Result FolderRun::finish(const Options& options, face::Portrait* portrait) {
   for (const StepRecord& record : saved_.run.records) result.passes.push_back(to_pass(record));
   hold_surface(tools.plan().surface, steps);
   const Measured after = steps.measure_after(
-      {.rulers = true, .histograms = true, .vertices = saved_.vertices}, saved_.before, &to);
+      {.rulers = true, .histograms = true, .holders = true, .vertices = saved_.vertices},
+      saved_.before, &to);
   result.surface_change = steps.surface_change();
   check_after(saved_.before, after, kept_by(tools.plan().surface), saved_.mesh.side(), result);
   if (portrait != nullptr) {
     portrait->rulers_before = saved_.before.histograms;
     portrait->rulers_after = after.histograms;
   }
+  result.notes = face::advice_on(after.held, options, result);
   const std::filesystem::path output = saved_.output;
   WriteDetails details = {.vertices = saved_.vertices,
                           .array_files = array_files_,

@@ -163,7 +163,7 @@ void Improvement::measure_before(const TetMesh& mesh) {
   result_.before = compute_statistics(mesh, options_.goal);
   result_.rulers_before = measure_rulers(mesh);
   lengths_ = face::LocalLengths(mesh, input_.points.size());
-  surface_before_ = surface_fingerprint(mesh);
+  surface_before_ = result_.surface_fingerprint_before = surface_fingerprint(mesh);
   result_.not_positive_before = count_not_positive(mesh, result_.before);
   if (portrait_ != nullptr) portrait_->draw_before(mesh, result_.rulers_before);
   watcher_.watch(nullptr, quality_indicators(mesh));
@@ -280,7 +280,7 @@ void Improvement::measure_after(Joined& joined) {
     return number == kGone ? std::nullopt : std::optional<std::uint64_t>(number);
   });
   result_.size_drift = lengths_.drift_to(now);
-  result_.surface_fingerprint = result_.surface_fingerprint_before = surface_fingerprint(mesh);
+  result_.surface_fingerprint = surface_fingerprint(mesh);
   result_.not_positive_after = count_not_positive(mesh, result_.after);
   std::vector<std::pair<TetHandle, Hindrance>> hindrances;
   if (options_.limit) result_.limit = find_surface_limit(mesh, options_.cancel, &hindrances);

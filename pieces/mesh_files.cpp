@@ -320,6 +320,7 @@ void check_after(const Measured& measured_before, const Measured& measured_after
   }
   result.before = before.statistics;
   result.not_positive_before = before.not_positive;
+  result.build.constrained_faces = before.constrained_faces;
   result.protected_tets = before.protected_tets;
   result.protected_bad_tets = before.protected_bad_tets;
   result.after = after.statistics;
@@ -350,6 +351,7 @@ std::string stay_as_it_was(const std::optional<SurfaceChange>& surface, Result& 
   result.rulers_after = result.rulers_before;
   if (result.size_drift) result.size_drift = SizeDrift();
   result.touched_tets = 0;
+  result.surface_fingerprint = result.surface_fingerprint_before;
   result.surface_change = surface;
   return why;
 }

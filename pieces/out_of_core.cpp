@@ -99,6 +99,7 @@ class FileRun {
   std::vector<std::string> told_;  // of what is lost
   QualityIndicators now_;
   Measured before_;
+  face::Held held_;
   std::optional<SurfaceChange> unchanged_surface_;
   Result result_;
 };
@@ -139,6 +140,10 @@ Result FileRun::run() {
   measure_after();
   if (files_.costs != nullptr) note_costs();
   if (!trace_.note().empty()) result_.notes.push_back(trace_.note());
+  for (std::string& text : face::advice_on(held_, options_, result_)) {
+    watcher_.noted(text);
+    result_.notes.push_back(std::move(text));
+  }
   result_.trace_trouble = trace_.finish_all(ranks_);
   if (files_.needs_trace && !result_.trace_trouble.empty()) throw Error(result_.trace_trouble);
   write();
@@ -221,7 +226,7 @@ void FileRun::measure_before() {
 /// A run that goes on may be asked for what this one is not.
 Wanted FileRun::wanted() const {
   const bool is_asked = files_.portrait != nullptr || !files_.checkpoint.empty();
-  return {.rulers = true, .histograms = is_asked, .vertices = vertices_};
+  return {.rulers = true, .histograms = is_asked, .holders = true, .vertices = vertices_};
 }
 
 void FileRun::hold_surface() {
@@ -329,6 +334,7 @@ void FileRun::measure_after() {
   watcher_.begin(Stage::measuring);
   const Stopwatch watch(result_.measuring);
   const Measured after = steps_->measure_after(wanted(), before_);
+  held_ = after.held;
   result_.surface_change = steps_->surface_change();
   check_after(before_, after, kept_by(plan_.surface), mesh_->state().side(), result_);
   if (files_.portrait == nullptr) return;

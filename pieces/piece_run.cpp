@@ -212,7 +212,8 @@ std::optional<Survey> PieceRun::survey_for(const Wanted& wanted) {
   return Survey{.worst = WorstScores(tets),
                 .lengths = face::LocalLengths(wanted.vertices),
                 .first_id = mesh_.state().first_id,
-                .vertices = wanted.vertices};
+                .vertices = wanted.vertices,
+                .finds_holders = wanted.holders};
 }
 
 Measured PieceRun::measure_before(const Wanted& wanted, Shelf* next) {
@@ -231,7 +232,7 @@ Measured PieceRun::measure_before(const Wanted& wanted, Shelf* next) {
   agree_on_bounds(bounds);
   Measured measured;
   measured.figures = sum(mine, mesh_.ranks());
-  if (survey) add_rulers(*std::move(survey), mesh_.ranks(), measured);
+  if (survey) add_survey(*std::move(survey), mesh_.ranks(), measured);
   if (!wanted.histograms || !measured.rulers) return measured;
   RulerHistograms& counts = measured.histograms.emplace(bins_for(*measured.rulers));
   for (const std::size_t part : mesh_.own()) {
@@ -504,7 +505,7 @@ Measured PieceRun::measure_after(const Wanted& wanted, const Measured& before, S
   }
   mesh_.number_added(std::vector<std::uint64_t>(mesh_.parts(), 0));
   measured.figures = sum(mine, mesh_.ranks());
-  if (survey) add_rulers(*std::move(survey), mesh_.ranks(), measured);
+  if (survey) add_survey(*std::move(survey), mesh_.ranks(), measured);
   if (measured.histograms) add_up(*measured.histograms, mesh_.ranks());
   return measured;
 }
