@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <memory>
 #include <optional>
 
@@ -30,6 +29,7 @@
 #include "face/mesh_access.h"
 #include "face/recorded.h"
 #include "kernel/formats/standard_stream.h"
+#include "kernel/stopwatch.h"
 #include "pieces/bytes.h"
 #include "pieces/improve.h"
 #include "pieces/out_of_core.h"
@@ -37,21 +37,6 @@
 
 namespace tetmend::apps {
 namespace {
-
-/// Adds the time from its making to its end to a sum.
-class Stopwatch {
- public:
-  explicit Stopwatch(double& seconds) : seconds_(seconds) {}
-  ~Stopwatch() {
-    seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-  }
-  Stopwatch(const Stopwatch&) = delete;
-  Stopwatch& operator=(const Stopwatch&) = delete;
-
- private:
-  double& seconds_;
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
 
 constexpr std::array<std::string_view, 3> kReportExtensions = {".json", ".html", ".htm"};
 
@@ -151,6 +136,7 @@ void improve_out_of_core(const ImproveOptions& options, ProgressLine& line,
     tell_lost(options.input, lost, options.carry, report.file_notes);
   };
   files.costs = &report.costs;
+  if (!options.reports.empty()) files.portrait = &report.portrait;
   files.first_id = invocation.first_vertex_id;
   files.needs_trace = true;
   pieces::Division division;

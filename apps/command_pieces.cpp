@@ -124,7 +124,7 @@ int split(PiecesOptions& options, Invocation& invocation) {
   const pieces::SavedRun& saved = run.saved();
   if (saved.division.pieces < division.pieces) {
     complain(kSuccess, pieces::why_fewer_pieces(division.pieces, saved.division.pieces,
-                                                saved.before.statistics.tets));
+                                                saved.before.figures.statistics.tets));
   }
   if (!improve.quiet) say_round(run);
   return kSuccess;
@@ -204,7 +204,9 @@ int join(PiecesOptions& options, Invocation& invocation) {
     reports.push_back({"--report", report});
   }
   check_step(options, run, reports, invocation);
-  const std::optional<Result> result = run.join(improve.run);
+  face::Portrait portrait;
+  const std::optional<Result> result =
+      run.join(improve.run, improve.reports.empty() ? nullptr : &portrait);
   invocation.wrote_files = true;
   write_plan(options.folder, run);
   if (!result) {
@@ -216,6 +218,7 @@ int join(PiecesOptions& options, Invocation& invocation) {
   for (const auto& [name, value] : run.saved().options) set_option(improve.run, name, value);
   ImproveReport report{.arguments = invocation.arguments, .options = improve};
   report.result = *result;
+  report.portrait = std::move(portrait);
   report.peak_memory = platform::peak_memory();
   write_reports(improve.reports, report);
   if (!improve.quiet) say(stdout, format_outcome(report));

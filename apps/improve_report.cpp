@@ -561,7 +561,7 @@ nlohmann::json to_json(const ImproveReport& report) {
     json["sizes"] = {{"before", to_json(*result.sizes_before)},
                      {"after", to_json(*result.sizes_after)}};
   }
-  if (report.costs.ranks > 0) json["ranks"] = costs_to_json(report);
+  json["ranks"] = report.costs.ranks > 0 ? costs_to_json(report) : nlohmann::json();
   return json;
 }
 

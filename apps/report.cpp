@@ -194,6 +194,7 @@ std::string format_rulers(const MeshRulers& before, const MeshRulers* after) {
     });
   }
   for (const SolverRulerInfo& ruler : kSolverRulers) {
+    if (std::isnan(before.*ruler.value)) continue;  // of a mesh that was never there as a whole
     line(ruler.title, [&](std::size_t figure, std::size_t m) {
       return figure == 0 ? short_number(meshes[m]->*ruler.value) : std::string();
     });

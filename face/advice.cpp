@@ -28,106 +28,18 @@ std::string counted(std::size_t number, std::string_view one, std::string_view m
   return fmt::format("{} {}", grouped(number), number == 1 ? one : many);
 }
 
-/// Constrained faces inside, and where they lie.
-struct InnerFaces {
-  std::size_t named = 0;        ///< between two tets of one label
-  std::vector<char> on_border;  ///< by vertex slot: on a face between two labels
-};
-
-InnerFaces find_inner_faces(const TetMesh& mesh) {
-  InnerFaces faces;
-  faces.on_border.resize(mesh.vertex_slots(), 0);
-  for (std::uint32_t i = 0; i < mesh.tet_slots(); ++i) {
-    const TetHandle t(i);
-    if (!mesh.has_constraints(t) || mesh.is_deleted(t)) continue;
-    for (unsigned f = 0; f < 4; ++f) {
-      const HalfFace face(t, f);
-      const HalfFace twin = mesh.twin(face);
-      if (twin.is_outside() || !mesh.is_constrained(face) || twin < face) continue;
-      if (mesh.label(t) == mesh.label(twin.tet())) {
-        ++faces.named;
-        continue;
-      }
-      for (const VertexHandle v : mesh.vertices(face)) faces.on_border[v.index()] = 1;
-    }
-  }
-  return faces;
-}
-
-/// Bad tets by what holds them; one may count for several.
-struct Held {
-  std::size_t bad = 0;  ///< all that are not frozen
-  std::size_t by_named = 0;
-  std::size_t by_border = 0;
-  std::size_t by_frozen = 0;
-  std::size_t by_surface = 0;  ///< all vertices lie there, and nothing else holds it
-};
-
-/// Looks at one bad tet after the other.
-class Holders {
- public:
-  Holders(const TetMesh& mesh, const InnerFaces& faces) : mesh_(mesh), faces_(faces) {}
-
-  void add(TetHandle t, Held& held) const {
-    bool named = false;
-    bool border = false;
-    bool frozen = false;
-    for (unsigned f = 0; f < 4; ++f) {
-      const HalfFace face(t, f);
-      if (mesh_.is_boundary(face)) continue;
-      const TetHandle other = mesh_.twin(face).tet();
-      if (mesh_.is_constrained(face)) {
-        (mesh_.label(t) == mesh_.label(other) ? named : border) = true;
-      } else {
-        frozen = frozen || mesh_.is_frozen(other);
-      }
-    }
-    for (unsigned e = 0; e < 6; ++e) named = named || is_named_inside(TetEdge(t, e));
-    bool surface = true;
-    for (const VertexHandle v : mesh_.vertices(t)) {
-      surface = surface && mesh_.is_boundary(v);
-      if (!mesh_.is_fixed(v) || mesh_.is_boundary(v)) continue;
-      (faces_.on_border[v.index()] != 0 ? border : mesh_.is_frozen(v) ? frozen : named) = true;
-    }
-    ++held.bad;
-    held.by_named += named ? 1 : 0;
-    held.by_border += border ? 1 : 0;
-    held.by_frozen += frozen ? 1 : 0;
-    held.by_surface += surface && !named && !border && !frozen ? 1 : 0;
-  }
-
- private:
-  /// A named edge that --ignore-interior would drop.
-  bool is_named_inside(TetEdge e) const {
-    if (!mesh_.is_constrained(e)) return false;
-    const auto [a, b] = mesh_.vertices(e);
-    const auto on_face = [&](VertexHandle v) {
-      return mesh_.is_boundary(v) || faces_.on_border[v.index()] != 0;
-    };
-    return !on_face(a) || !on_face(b);
-  }
-
-  const TetMesh& mesh_;
-  const InnerFaces& faces_;
-};
-
-Held count_held(const TetMesh& mesh, const InnerFaces& faces) {
-  const Holders holders(mesh, faces);
+Held count_held(const TetMesh& mesh) {
+  const HolderSearch search(mesh);
   const auto parts = map_chunks<Held>(mesh.tet_slots(), [&](std::size_t begin, std::size_t end) {
     Held part;
     mesh.visit_below(kBadThreshold, begin, end, [&](TetHandle t) {
-      if (!mesh.is_frozen(t)) holders.add(t, part);
+      if (!mesh.is_frozen(t)) part.add(search.find(t));
     });
     return part;
   });
   Held sum;
-  for (const Held& part : parts) {
-    sum.bad += part.bad;
-    sum.by_named += part.by_named;
-    sum.by_border += part.by_border;
-    sum.by_frozen += part.by_frozen;
-    sum.by_surface += part.by_surface;
-  }
+  sum.named_faces = search.named_faces().size();
+  for (const Held& part : parts) sum.add(part);
   return sum;
 }
 
@@ -193,24 +105,101 @@ std::vector<std::string> advice_before(const TetMesh& mesh, const Result& result
   return texts;
 }
 
-std::vector<std::string> advice_after(const TetMesh& mesh, const MeshData& input,
-                                      const Options& options, const Result& result) {
-  if (result.after.n_bad == 0) return {};
-  const InnerFaces faces = find_inner_faces(mesh);
-  const Held held = count_held(mesh, faces);
-  const auto binds = [&](std::size_t count) { return count > 0 && 10 * count >= held.bad; };
-  std::vector<std::string> texts;
-  if (result.ending != Ending::cancelled) {  // who stops a run waits for the program to end
-    const InvertedTets inverted = count_inverted(mesh);
-    if (inverted.all() > 0) texts.push_back(reasons_of_inverted(inverted));
+void Holders::add(const Holders& other) {
+  named = named || other.named;
+  border = border || other.border;
+  frozen = frozen || other.frozen;
+  at_surface |= other.at_surface;
+}
+
+void Held::add(const Holders& holders) {
+  constexpr std::uint8_t kAllCorners = 0b1111;
+  const auto& [named, border, frozen, at_surface] = holders;
+  ++bad;
+  by_named += named ? 1 : 0;
+  by_border += border ? 1 : 0;
+  by_frozen += frozen ? 1 : 0;
+  by_surface += at_surface == kAllCorners && !named && !border && !frozen ? 1 : 0;
+}
+
+void Held::add(const Held& other) {
+  bad += other.bad;
+  by_named += other.by_named;
+  by_border += other.by_border;
+  by_frozen += other.by_frozen;
+  by_surface += other.by_surface;
+  named_faces += other.named_faces;
+}
+
+HolderSearch::HolderSearch(const TetMesh& mesh, Knows knows)
+    : mesh_(mesh), knows_(std::move(knows)), on_border_(mesh.vertex_slots(), 0) {
+  for (std::uint32_t i = 0; i < mesh.tet_slots(); ++i) {
+    const TetHandle t(i);
+    if (!mesh.has_constraints(t) || mesh.is_deleted(t)) continue;
+    for (unsigned f = 0; f < 4; ++f) {
+      const HalfFace face(t, f);
+      const HalfFace twin = mesh.twin(face);
+      if (twin.is_outside() || !mesh.is_constrained(face) || twin < face) continue;
+      if (mesh.label(t) == mesh.label(twin.tet())) {
+        named_faces_.push_back(face);
+        continue;
+      }
+      for (const VertexHandle v : mesh.vertices(face)) on_border_[v.index()] = 1;
+    }
   }
+}
+
+Holders HolderSearch::find(TetHandle t) const {
+  Holders holders;
+  for (unsigned f = 0; f < 4; ++f) {
+    const HalfFace face(t, f);
+    const auto v = mesh_.vertices(face);
+    const bool is_known = knows(v[0]) || knows(v[1]) || knows(v[2]);
+    if (!is_known || mesh_.is_boundary(face)) continue;
+    const TetHandle other = mesh_.twin(face).tet();
+    if (mesh_.is_constrained(face)) {
+      (mesh_.label(t) == mesh_.label(other) ? holders.named : holders.border) = true;
+    } else {
+      holders.frozen = holders.frozen || mesh_.is_frozen(other);
+    }
+  }
+  for (unsigned e = 0; e < 6; ++e) {
+    holders.named = holders.named || is_named_inside(TetEdge(t, e));
+  }
+  for (unsigned i = 0; i < 4; ++i) {
+    const VertexHandle v = mesh_.vertices(t)[i];
+    if (!knows(v)) continue;
+    if (mesh_.is_boundary(v)) holders.at_surface |= static_cast<std::uint8_t>(1U << i);
+    if (!mesh_.is_fixed(v) || mesh_.is_boundary(v)) continue;
+    (on_border_[v.index()] != 0 ? holders.border
+     : mesh_.is_frozen(v)       ? holders.frozen
+                                : holders.named) = true;
+  }
+  return holders;
+}
+
+/// A named edge that --ignore-interior would drop. A vertex of a piece's border counts as at the
+/// surface: who knows it tells whether it is.
+bool HolderSearch::is_named_inside(TetEdge e) const {
+  if (!mesh_.is_constrained(e)) return false;
+  const auto [a, b] = mesh_.vertices(e);
+  const auto is_inside = [&](VertexHandle v) {
+    return knows(v) && !mesh_.is_boundary(v) && on_border_[v.index()] == 0;
+  };
+  return is_inside(a) || is_inside(b);
+}
+
+std::vector<std::string> advice_on(const Held& held, const Options& options, const Result& result) {
+  std::vector<std::string> texts;
+  const auto binds = [&](std::size_t count) { return count > 0 && 10 * count >= held.bad; };
   if (binds(held.by_named)) {
-    const bool only_faces = faces.named > 0;
+    const bool only_faces = held.named_faces > 0;
     texts.push_back(fmt::format(
         "{} {} {}; --ignore-interior would free them",
-        only_faces ? counted(faces.named, "named inner triangle", "named inner triangles")
+        only_faces ? counted(held.named_faces, "named inner triangle", "named inner triangles")
                    : "edges and vertices named inside",
-        only_faces && faces.named == 1 ? "holds" : "hold", share_of_bad(held.by_named, held.bad)));
+        only_faces && held.named_faces == 1 ? "holds" : "hold",
+        share_of_bad(held.by_named, held.bad)));
   }
   if (binds(held.by_border)) {
     texts.push_back(fmt::format("faces between labels hold {}; one label would free them",
@@ -223,6 +212,19 @@ std::vector<std::string> advice_after(const TetMesh& mesh, const MeshData& input
     texts.push_back(fmt::format("the surface, which stays, has all vertices of {}",
                                 share_of_bad(held.by_surface, held.bad)));
   }
+  return texts;
+}
+
+std::vector<std::string> advice_after(const TetMesh& mesh, const MeshData& input,
+                                      const Options& options, const Result& result) {
+  if (result.after.n_bad == 0) return {};
+  const Held held = count_held(mesh);
+  std::vector<std::string> texts;
+  if (result.ending != Ending::cancelled) {  // who stops a run waits for the program to end
+    const InvertedTets inverted = count_inverted(mesh);
+    if (inverted.all() > 0) texts.push_back(reasons_of_inverted(inverted));
+  }
+  for (std::string& text : advice_on(held, options, result)) texts.push_back(std::move(text));
   if (held.bad >= kLeastOffer && offers_flat(options, result)) {
     const std::size_t least = std::max(kLeastOffer, (held.bad + 19) / 20);  // a twentieth
     const std::size_t freed = estimate_freed_by_flat(mesh, input, held.bad, least);

@@ -2,6 +2,9 @@
 // What a user should know about a mesh before a run, and about what held the run back.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -24,5 +27,54 @@ std::vector<std::string> advice_before(const TetMesh& mesh, const Result& result
 /// @param input what the mesh was built of
 std::vector<std::string> advice_after(const TetMesh& mesh, const MeshData& input,
                                       const Options& options, const Result& result);
+
+/// What holds a bad tet, as far as vertices tell whose tets are all there.
+struct Holders {
+  bool named = false;   ///< a named face, edge or vertex inside
+  bool border = false;  ///< a face between labels
+  bool frozen = false;
+  std::uint8_t at_surface = 0;  ///< a bit for each corner that lies there
+
+  void add(const Holders& other);
+};
+
+/// Bad tets that are not frozen, by what holds them; one may count for several.
+struct Held {
+  std::size_t bad = 0;  ///< all of them
+  std::size_t by_named = 0;
+  std::size_t by_border = 0;
+  std::size_t by_frozen = 0;
+  std::size_t by_surface = 0;   ///< all vertices lie there, and nothing else holds it
+  std::size_t named_faces = 0;  ///< named triangles between two tets of one label
+
+  void add(const Holders& holders);
+  void add(const Held& other);
+};
+
+/// Finds what holds the bad tets of a mesh, or of a piece of one.
+class HolderSearch {
+ public:
+  /// Has all tets at a vertex.
+  using Knows = std::function<bool(VertexHandle)>;
+  /// @param knows null: all vertices. Cost: linear, little where no constraints are inside.
+  explicit HolderSearch(const TetMesh& mesh, Knows knows = {});
+
+  /// What the known vertices tell of a tet.
+  Holders find(TetHandle t) const;
+  /// The named triangles between two tets of one label, each once.
+  const std::vector<HalfFace>& named_faces() const { return named_faces_; }
+
+ private:
+  bool knows(VertexHandle v) const { return !knows_ || knows_(v); }
+  bool is_named_inside(TetEdge e) const;
+
+  const TetMesh& mesh_;
+  Knows knows_;
+  std::vector<HalfFace> named_faces_;
+  std::vector<char> on_border_;  // by vertex slot: on a face between two labels
+};
+
+/// Which constraints hold a tenth or more of the bad tets, see advice_after().
+std::vector<std::string> advice_on(const Held& held, const Options& options, const Result& result);
 
 }  // namespace tetmend::face

@@ -34,6 +34,11 @@ double local_length(const TetMesh& mesh, VertexHandle v, Workspace& workspace) {
   return ring.empty() ? 0 : sum / static_cast<double>(ring.size());
 }
 
+std::optional<std::uint64_t> number_in_file(const TetMesh& mesh, VertexHandle v) {
+  const std::uint32_t number = mesh.origin(v);
+  return number == TetMesh::kNotFromFile ? std::nullopt : std::optional<std::uint64_t>(number);
+}
+
 double at_share(std::vector<double>& ratios, double share) {
   const auto place = static_cast<std::ptrdiff_t>(share * static_cast<double>(ratios.size() - 1));
   std::nth_element(ratios.begin(), ratios.begin() + place, ratios.end());
@@ -74,27 +79,36 @@ std::optional<std::size_t> Growth::most(std::size_t now) const {
   return most < 1e18 ? std::optional(static_cast<std::size_t>(most + 1e-9)) : std::nullopt;
 }
 
-LocalLengths::LocalLengths(const TetMesh& mesh, std::size_t count) {
+LocalLengths::LocalLengths(std::size_t count) : count_(count) {
   step_ = count / kSample + 1;
   lengths_.assign((count + step_ - 1) / step_, 0);
-  measure(mesh, [](VertexHandle) { return false; });
+}
+
+LocalLengths::LocalLengths(const TetMesh& mesh, std::size_t count) : LocalLengths(count) {
+  measure(mesh, [&](VertexHandle v) { return number_in_file(mesh, v); });
+}
+
+void LocalLengths::add(const TetMesh& mesh,
+                       const std::function<std::optional<std::uint64_t>(VertexHandle)>& number_of) {
+  measure(mesh, number_of);
 }
 
 LocalLengths LocalLengths::renewed(const TetMesh& mesh) const {
-  LocalLengths now;
-  now.step_ = step_;
-  now.lengths_.assign(lengths_.size(), 0);
+  LocalLengths now(count_);
   now.measure(mesh, [&](VertexHandle v) {
-    if (mesh.changed(v) != 0 || mesh.moved(v) != 0) return false;
-    now.lengths_[mesh.origin(v) / step_] = lengths_[mesh.origin(v) / step_];
-    return true;
+    const auto number = number_in_file(mesh, v);
+    if (!number || *number % step_ != 0 || mesh.changed(v) != 0 || mesh.moved(v) != 0) {
+      return number;
+    }
+    now.lengths_[*number / step_] = lengths_[*number / step_];
+    return std::optional<std::uint64_t>();
   });
   return now;
 }
 
-/// At the chosen vertices for which is_known(v) is false.
-template <class IsKnown>
-void LocalLengths::measure(const TetMesh& mesh, const IsKnown& is_known) {
+/// At the chosen ones of the vertices that have a number.
+template <class NumberOf>
+void LocalLengths::measure(const TetMesh& mesh, const NumberOf& number_of) {
   constexpr std::size_t kVerticesOfChunk = 4096;
   const Workspace first(mesh);
   for_chunks(
@@ -103,12 +117,10 @@ void LocalLengths::measure(const TetMesh& mesh, const IsKnown& is_known) {
         Workspace workspace = Workspace::without_slots(first);
         for (std::size_t i = begin; i < end; ++i) {
           const VertexHandle v(static_cast<std::uint32_t>(i));
-          const std::uint32_t number = mesh.origin(v);
-          if (number == TetMesh::kNotFromFile || number % step_ != 0 || mesh.is_deleted(v) ||
-              is_known(v)) {
-            continue;
-          }
-          lengths_[number / step_] = local_length(mesh, v, workspace);
+          if (mesh.is_deleted(v)) continue;
+          const std::optional<std::uint64_t> number = number_of(v);
+          if (!number || *number % step_ != 0) continue;
+          lengths_[*number / step_] = mesh.scale().to_file(local_length(mesh, v, workspace));
         }
       },
       kVerticesOfChunk);

@@ -2,6 +2,12 @@
 // How many tets a run may make, and what becomes of the lengths of edges.
 #pragma once
 
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
 #include <tetmend/improve.h>
 
 #include "kernel/tet_mesh.h"
@@ -34,6 +40,15 @@ class LocalLengths {
   /// At 20,000 vertices or so. `count`: vertices in the file. Cost: linear in the vertices, and a
   /// walk around each of the chosen.
   LocalLengths(const TetMesh& mesh, std::size_t count);
+  /// None is measured yet: add() does that.
+  explicit LocalLengths(std::size_t count);
+  /// Those of a share of the mesh.
+  /// @param number_of  a vertex, in the file; nothing: it is not of the share. All threads ask.
+  void add(const TetMesh& mesh,
+           const std::function<std::optional<std::uint64_t>(VertexHandle)>& number_of);
+  std::size_t count() const { return count_; }  ///< vertices in the file
+  /// By chosen vertex, as in the file; 0: it is not there, or not of a share that was added.
+  std::span<double> lengths() { return lengths_; }
 
   /// At the same vertices by now. Looks only where something has changed since these were measured.
   /// Precondition: that was when nothing had changed since the mesh was built of that file.
@@ -44,9 +59,10 @@ class LocalLengths {
   friend bool operator==(const LocalLengths&, const LocalLengths&) = default;
 
  private:
-  template <class IsKnown>
-  void measure(const TetMesh& mesh, const IsKnown& is_known);
+  template <class NumberOf>
+  void measure(const TetMesh& mesh, const NumberOf& number_of);
 
+  std::size_t count_ = 0;
   std::size_t step_ = 1;         // from one chosen number of a vertex to the next
   std::vector<double> lengths_;  // 0 for a vertex that is not there
 };

@@ -6,7 +6,6 @@
 // The plain arrays are taken apart on the way in, and the mesh on the way out: neither is in memory
 // twice.
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -43,6 +42,7 @@
 #include "kernel/rulers.h"
 #include "kernel/size_field.h"
 #include "kernel/solver_rulers.h"
+#include "kernel/stopwatch.h"
 #include "kernel/surface_fingerprint.h"
 #include "kernel/volume_rounding.h"
 #include "platform/platform.h"
@@ -51,21 +51,6 @@
 namespace tetmend {
 
 namespace {
-
-/// Adds the time from its making to its end to a sum.
-class Stopwatch {
- public:
-  explicit Stopwatch(double& seconds) : seconds_(seconds) {}
-  ~Stopwatch() {
-    seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-  }
-  Stopwatch(const Stopwatch&) = delete;
-  Stopwatch& operator=(const Stopwatch&) = delete;
-
- private:
-  double& seconds_;
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
 
 Pass to_pass(PassRecord&& record) {
   Pass pass;

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <numbers>
 #include <optional>
@@ -19,6 +20,7 @@
 #include "kernel/chunks.h"
 #include "kernel/compensated_sum.h"
 #include "kernel/ruler_histogram.h"
+#include "kernel/ruler_shares.h"
 #include "kernel/solver_rulers.h"
 #include "kernel/tet_rows.h"
 
@@ -267,13 +269,22 @@ struct Part {
 
 double value_of(Ruler ruler, double score);
 
+/// What a survey is of.
+struct Subject {
+  bool tets = true;
+  bool faces = true;
+  const std::function<bool(HalfFace)>* has_face = nullptr;  ///< null: all faces count
+};
+
 /// Measures the tets of a chunk, or every step-th of them.
 class Surveyor {
  public:
   /// @param counts null, or counts what is measured
-  Surveyor(const TetMesh& mesh, const Limits& limits, RulerHistograms* counts = nullptr)
+  Surveyor(const TetMesh& mesh, const Limits& limits, RulerHistograms* counts = nullptr,
+           const Subject& subject = {})
       : mesh_(mesh),
         counts_(counts),
+        subject_(subject),
         tets_(limits, 0),
         faces_(limits, kTetRulers),
         faces_above_70_{std::cos(70 * std::numbers::pi / 180)} {}
@@ -285,9 +296,13 @@ class Surveyor {
           if (!twin.is_outside()) mesh_.prefetch(twin.tet());
         }
       }
-      measure(rows.points, tets_, shortest_edge_);
-      sift(tets_, 0);
-      count(tets_, 0, rows.points.size());
+      if (subject_.tets) {
+        measure(rows.points, tets_, shortest_edge_);
+        sift(tets_, 0);
+        count(tets_, 0, rows.points.size());
+        for (std::size_t r = 0; r < kTetRulers; ++r) part_.of[r].count += rows.points.size();
+      }
+      if (!subject_.faces) return;
       look_around(rows);
       for (unsigned f = 0; f < 4; ++f) {
         measure_faces(rows.points, surroundings_, f, faces_, faces_above_70_);
@@ -351,25 +366,27 @@ class Surveyor {
       for (unsigned f = 0; f < 4; ++f) {
         const bool is_outside = twins[f].is_outside();
         const HalfFace other = is_outside ? HalfFace(t, f) : twins[f];
-        const bool is_inner = t < other.tet();
+        const bool counts = subject_.has_face == nullptr || (*subject_.has_face)(HalfFace(t, f));
+        const bool is_inner = counts && t < other.tet();
         beyond[f] = &mesh_.point(mesh_.vertices(other.tet())[other.face()]);
         surroundings_.kinds[f][i / kWideLanes][i % kWideLanes] =
-            is_outside ? Surroundings::kBoundary
-            : is_inner ? Surroundings::kInner
-                       : Surroundings::kElsewhere;
+            !counts      ? Surroundings::kElsewhere
+            : is_outside ? Surroundings::kBoundary
+            : is_inner   ? Surroundings::kInner
+                         : Surroundings::kElsewhere;
         inner += is_inner ? 1 : 0;
-        boundary += is_outside ? 1 : 0;
+        boundary += counts && is_outside ? 1 : 0;
       }
       surroundings_.points.add(beyond);
     }
     surroundings_.pad();
-    for (std::size_t r = 0; r < kTetRulers; ++r) part_.of[r].count += size;
     part_.of[at(Ruler::non_orthogonality)].count += inner;
     part_.of[at(Ruler::skewness)].count += inner + boundary;
   }
 
   const TetMesh& mesh_;
   RulerHistograms* counts_;
+  Subject subject_;
   Surroundings surroundings_;
   Tally<kTetRulers> tets_;
   Tally<kFaceRulers> faces_;
@@ -513,30 +530,186 @@ MeshRulers measure_rulers(const TetMesh& mesh, const P1Diagonals& diagonals) {
   return result;
 }
 
-RulerHistograms count_rulers(const TetMesh& mesh, const MeshRulers& means) {
-  Limits keep_none;
-  keep_none.fill(-kInfinity);
+RulerHistograms bins_for(const MeshRulers& means) {
   RulerHistograms empty;
   for (std::size_t r = 0; r < kRulerCount; ++r) {
     empty[r].bins = RulerBins(static_cast<Ruler>(r), means.figures[r].mean);
   }
+  return empty;
+}
+
+namespace {
+
+/// Adds what a survey counts.
+void count_survey(const TetMesh& mesh, const Subject& subject, RulerHistograms& counts) {
+  Limits keep_none;
+  keep_none.fill(-kInfinity);
+  RulerHistograms empty = counts;
+  for (RulerHistogram& of : empty) of.counts = {};
   const auto parts =
       map_chunks<RulerHistograms>(mesh.tet_slots(), [&](std::size_t begin, std::size_t end) {
         RulerHistograms part = empty;
-        Surveyor(mesh, keep_none, &part).run(begin, end, 1);
+        Surveyor(mesh, keep_none, &part, subject).run(begin, end, 1);
         return part;
       });
-  RulerHistograms all = empty;
   for (const RulerHistograms& part : parts) {
     for (std::size_t r = 0; r < kRulerCount; ++r) {
-      for (std::size_t i = 0; i < RulerBins::kCount; ++i) all[r].counts[i] += part[r].counts[i];
+      for (std::size_t i = 0; i < RulerBins::kCount; ++i) counts[r].counts[i] += part[r].counts[i];
     }
   }
+}
+
+/// The steps at the vertices that count, as in the file, in the order of their slots.
+std::vector<double> steps_of(const TetMesh& mesh, const RulerScope& scope,
+                             const P1Diagonals& diagonals) {
+  std::vector<double> steps;
+  for (std::size_t i = 0; i < diagonals.mass.size(); ++i) {
+    const VertexHandle v(static_cast<std::uint32_t>(i));
+    if (!diagonals.is_in_use(v) || !scope.has_vertex(v)) continue;
+    steps.push_back(mesh.scale().to_file(diagonals.step(v)));
+  }
+  return steps;
+}
+
+}  // namespace
+
+RulerHistograms count_rulers(const TetMesh& mesh, const MeshRulers& means) {
+  RulerHistograms all = bins_for(means);
+  count_survey(mesh, {}, all);
   RulerHistogram& of_steps = all[at(Ruler::step)];
   for (const double step : steps_of(p1_diagonals(mesh))) {
     ++of_steps.counts[of_steps.bins.find(mesh.scale().to_file(step))];
   }
   return all;
+}
+
+// ---- Share by share -----------------------------------------------------------------------------
+
+void RulerShare::add(const RulerShare& other) {
+  for (std::size_t r = 0; r < kRulerCount; ++r) {
+    of[r].count += other.of[r].count;
+    of[r].worst = std::min(of[r].worst, other.of[r].worst);
+    of[r].sum.add(other.of[r].sum);
+  }
+  shortest_edge = std::min(shortest_edge, other.shortest_edge);
+  faces_above_70 += other.faces_above_70;
+  turned += other.turned;
+}
+
+/// A tet has four vertices and four faces at most.
+WorstScores::WorstScores(std::uint64_t tets) {
+  limits_.fill(kInfinity);
+  for (std::size_t r = 0; r < kRulerCount; ++r) {
+    most_[r] = static_cast<std::size_t>(place_of_one_percent(r < kTetRulers ? tets : 4 * tets) + 1);
+  }
+}
+
+void WorstScores::add(std::size_t ruler, const std::vector<double>& scores) {
+  std::vector<double>& all = scores_[ruler];
+  const std::size_t most = most_[ruler];
+  all.insert(all.end(), scores.begin(), scores.end());
+  if (most == 0 || all.size() <= most + most / 4) return;
+  const auto last = all.begin() + static_cast<std::ptrdiff_t>(most - 1);
+  std::nth_element(all.begin(), last, all.end());
+  limits_[ruler] = *last;
+  all.resize(most);
+}
+
+const std::vector<double>& WorstScores::sorted(std::size_t ruler) {
+  std::sort(scores_[ruler].begin(), scores_[ruler].end());
+  return scores_[ruler];
+}
+
+namespace {
+
+constexpr std::size_t kSlotsAtOnce = 16 * kTetsOfPart;  // what is kept of them is little
+
+/// The rulers [first, last) of a survey, with lengths as in the file.
+void add_survey(const TetMesh& mesh, const Subject& subject, std::size_t first, std::size_t last,
+                WorstScores& worst, RulerShare& share) {
+  const auto to_file = [&](std::size_t ruler, double score) {
+    return is_length(static_cast<Ruler>(ruler)) ? mesh.scale().to_file(score) : score;
+  };
+  for (std::size_t begin = 0; begin < mesh.tet_slots(); begin += kSlotsAtOnce) {
+    Limits limits;
+    std::copy_n(worst.limits().begin(), kSurveyed, limits.begin());
+    for (std::size_t r = 0; r < kSurveyed; ++r) {
+      if (is_length(static_cast<Ruler>(r))) limits[r] = mesh.scale().to_work(limits[r]);
+    }
+    const auto parts = map_chunks<Part>(
+        std::min(kSlotsAtOnce, mesh.tet_slots() - begin),
+        [&](std::size_t from, std::size_t to) {
+          return Surveyor(mesh, limits, nullptr, subject).run(begin + from, begin + to, 1);
+        },
+        kTetsOfPart);
+    for (const Part& part : parts) {
+      for (std::size_t r = first; r < last; ++r) {
+        RulerShare::Scores& of = share.of[r];
+        of.count += part.of[r].count;
+        of.worst = std::min(of.worst, to_file(r, part.of[r].worst));
+        of.sum.add(to_file(r, part.of[r].sum.value()));
+        std::vector<double> kept = part.of[r].sieve.kept;
+        for (double& score : kept) score = to_file(r, score);
+        worst.add(r, kept);
+      }
+      share.faces_above_70 += part.faces_above_70;
+      share.shortest_edge = std::min(share.shortest_edge, mesh.scale().to_file(part.shortest_edge));
+    }
+  }
+}
+
+}  // namespace
+
+void measure_tets(const TetMesh& mesh, RulerShare& share, WorstScores& worst) {
+  add_survey(mesh, {.tets = true, .faces = false}, 0, kTetRulers, worst, share);
+}
+
+void measure_around(const TetMesh& mesh, const RulerScope& scope, RulerShare& share,
+                    WorstScores& worst) {
+  add_survey(mesh, {.tets = false, .faces = true, .has_face = &scope.has_face}, kTetRulers,
+             kSurveyed, worst, share);
+  const P1Diagonals diagonals = p1_diagonals(mesh);
+  if (mesh.tet_count() > 0 && !diagonals.are_positive) ++share.turned;
+  const std::vector<double> steps = steps_of(mesh, scope, diagonals);
+  RulerShare::Scores& of_steps = share.of[at(Ruler::step)];
+  of_steps.count += steps.size();
+  for (const double step : steps) {
+    of_steps.worst = std::min(of_steps.worst, step);
+    of_steps.sum.add(step);
+  }
+  worst.add(at(Ruler::step), steps);
+}
+
+void count_tets(const TetMesh& mesh, RulerHistograms& counts) {
+  count_survey(mesh, {.tets = true, .faces = false}, counts);
+}
+
+void count_around(const TetMesh& mesh, const RulerScope& scope, RulerHistograms& counts) {
+  count_survey(mesh, {.tets = false, .faces = true, .has_face = &scope.has_face}, counts);
+  RulerHistogram& of_steps = counts[at(Ruler::step)];
+  for (const double step : steps_of(mesh, scope, p1_diagonals(mesh))) {
+    ++of_steps.counts[of_steps.bins.find(step)];
+  }
+}
+
+MeshRulers rulers_of(const RulerShare& all, const std::array<double, kRulerCount>& one_percent) {
+  MeshRulers result;
+  for (std::size_t r = 0; r < kRulerCount; ++r) {
+    const auto ruler = static_cast<Ruler>(r);
+    const RulerShare::Scores& scores = all.of[r];
+    if (scores.count == 0) continue;
+    const double mean = std::isinf(scores.worst)
+                            ? scores.worst
+                            : scores.sum.value() / static_cast<double>(scores.count);
+    result.figures[r] = {value_of(ruler, scores.worst), value_of(ruler, one_percent[r]),
+                         value_of(ruler, mean)};
+  }
+  if (all.turned > 0) result.figures[at(Ruler::step)].worst = 0;
+  result.shortest_edge = all.of[0].count > 0 ? all.shortest_edge : 0;
+  result.inner_faces = all.of[at(Ruler::non_orthogonality)].count;
+  result.faces_above_70 = all.faces_above_70;
+  result.cg_steps = result.work = kNothing;
+  return result;
 }
 
 }  // namespace tetmend

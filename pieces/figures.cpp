@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <optional>
 #include <span>
@@ -14,6 +15,7 @@
 #include "kernel/integrity.h"
 #include "kernel/mesh_builder.h"
 #include "kernel/surface_fingerprint.h"
+#include "pieces/bytes.h"
 #include "pieces/piece_task.h"
 
 namespace tetmend::pieces {
@@ -98,11 +100,13 @@ void Figures::add(const Figures& other) {
   surface += other.surface;
   not_positive += other.not_positive;
   peculiar += other.peculiar;
+  constrained_faces += other.constrained_faces;
   layer_tets += other.layer_tets;
   touched += other.touched;
   protected_tets += other.protected_tets;
   protected_bad_tets += other.protected_bad_tets;
   misfits += other.misfits;
+  rulers.add(other.rulers);
 }
 
 Bounds bounds_of_own(const Piece& gathered, const Parting& parting, std::uint32_t number,
@@ -134,10 +138,11 @@ std::optional<std::size_t> find_again(const Piece& gathered, std::size_t tet) {
 }
 
 /// @throws Error with the number in the file of a tet that does not fit
-TetMesh build_first(const Piece& gathered, BuildReport& report) {
+TetMesh build_first(const Piece& gathered, BuildReport& report,
+                    std::vector<std::uint32_t>* numbers = nullptr) {
   MeshData data = to_data(gathered);
   try {
-    return TetMesh::build(data, {.report = &report});
+    return TetMesh::build(data, {.report = &report, .tet_numbers = numbers});
   } catch (const BuildError& error) {
     const auto number_of = [&](std::size_t t) {
       return gathered.tets[t].origin & ~PieceTet::kProtected;
@@ -156,53 +161,270 @@ TetMesh build_first(const Piece& gathered, BuildReport& report) {
   }
 }
 
+/// What is a piece's own in a mesh of all of it.
+class OwnOf {
+ public:
+  OwnOf(const TetMesh& mesh, const Piece& gathered, const Parting& parting, std::uint32_t number)
+      : mesh_(mesh), gathered_(gathered), parts_(parting.parts_of(gathered)), number_(number) {}
+
+  bool has(const std::array<VertexHandle, 3>& face) const {
+    std::array<std::uint32_t, 3> vertices{};
+    for (std::size_t i = 0; i < 3; ++i) vertices[i] = mesh_.origin(face[i]);
+    return is_own(vertices, parts_, number_);
+  }
+  bool has(VertexHandle v) const { return parts_[mesh_.origin(v)] == number_; }
+  RulerScope scope() const {
+    return {.has_face = [this](HalfFace face) { return has(mesh_.vertices(face)); },
+            .has_vertex = [this](VertexHandle v) { return has(v); }};
+  }
+  /// Of an own vertex of the file.
+  std::optional<std::uint64_t> number_in_file(VertexHandle v, const Survey& survey) const {
+    const std::uint64_t number = gathered_.ids[mesh_.origin(v)] - survey.first_id;
+    return has(v) && number < survey.vertices ? std::optional(number) : std::nullopt;
+  }
+
+ private:
+  const TetMesh& mesh_;
+  const Piece& gathered_;
+  const std::vector<std::uint32_t> parts_;
+  const std::uint32_t number_;
+};
+
+/// Without its constraints.
+TetMesh build_own(const Piece& own, std::vector<std::uint32_t>* numbers) {
+  MeshData data = to_data(own);
+  data.triangles.clear();
+  data.edges.clear();
+  return TetMesh::build(data, {.report = nullptr, .tet_numbers = numbers});
+}
+
+/// Bad tets with an own vertex, the protected ones apart, and what holds them.
+void find_holders(TetMesh& mesh, std::span<const std::uint32_t> numbers, const Piece& gathered,
+                  const OwnOf& own, const Standard& standard, Survey& survey) {
+  mesh.set_standard(standard);
+  mesh.freeze([&](TetHandle t) { return gathered.tets[numbers[t.index()]].is_protected(); });
+  const face::HolderSearch search(mesh, [&](VertexHandle v) { return own.has(v); });
+  for (const HalfFace face : search.named_faces()) {
+    survey.held.named_faces += own.has(mesh.vertices(face)) ? 1 : 0;
+  }
+  mesh.visit_below(kBadThreshold, 0, mesh.tet_slots(), [&](TetHandle t) {
+    const TetVertices& v = mesh.vertices(t);
+    const auto is_mine = [&](VertexHandle w) { return own.has(w); };
+    if (mesh.is_frozen(t) || std::none_of(v.begin(), v.end(), is_mine)) return;
+    const face::Holders holders = search.find(t);
+    if (std::all_of(v.begin(), v.end(), is_mine)) return survey.held.add(holders);
+    const auto id = [&](unsigned i) { return gathered.ids[mesh.origin(v[i])]; };
+    std::array<unsigned, 4> order = {0, 1, 2, 3};
+    std::sort(order.begin(), order.end(), [&](unsigned a, unsigned b) { return id(a) < id(b); });
+    SharedTet& shared = survey.shared.emplace_back();
+    shared.holders = holders;
+    shared.holders.at_surface = 0;
+    for (unsigned i = 0; i < 4; ++i) {
+      shared.vertices[i] = id(order[i]);
+      const unsigned bit = (unsigned{holders.at_surface} >> order[i]) & 1U;
+      shared.holders.at_surface |= static_cast<std::uint8_t>(bit << i);
+    }
+  });
+}
+
+/// What is asked of a mesh that has all tets at the own faces and vertices.
+void measure_all(const TetMesh& mesh, const OwnOf& own, Survey* survey, Figures& figures) {
+  const auto is_own_face = [&](const std::array<VertexHandle, 3>& face) { return own.has(face); };
+  figures.surface = surface_fingerprint(mesh, is_own_face);
+  figures.layer_tets = find_boundary_layers(mesh).tets.size();
+  for (std::uint32_t slot = 0; slot < mesh.tet_slots(); ++slot) {
+    for (unsigned f = 0; f < 4; ++f) {
+      const HalfFace face(TetHandle(slot), f);
+      const HalfFace twin = mesh.twin(face);
+      const bool is_inner = !twin.is_outside();
+      if (is_inner && (twin < face || !mesh.is_constrained(face))) continue;
+      if (!own.has(mesh.vertices(face))) continue;
+      ++(is_inner ? figures.constrained_faces : figures.statistics.boundary_triangles);
+    }
+  }
+  if (survey == nullptr) return;
+  measure_around(mesh, own.scope(), figures.rulers, survey->worst);
+  survey->lengths.add(mesh, [&](VertexHandle v) { return own.number_in_file(v, *survey); });
+}
+
 }  // namespace
 
 Figures measure_own(const Piece& gathered, const Parting& parting, std::uint32_t number,
-                    const Standard& standard, const HeldSurface* surface) {
+                    const Standard& standard, Survey* survey, const HeldSurface* surface) {
   Figures figures;
-  const Piece own = own_part(gathered, parting, number);
-  const std::vector<std::uint32_t> parts = parting.parts_of(gathered);
   if (!gathered.tets.empty()) {
     BuildReport report;
-    const TetMesh mesh = build_first(gathered, report);
+    std::vector<std::uint32_t> numbers;
+    TetMesh mesh = build_first(gathered, report, &numbers);
     figures.peculiar = report.reordered_tets + report.inverted_tets + report.flat_tets +
                        (report.mirrored ? gathered.tets.size() : 0);
-    const auto is_own_face = [&](const std::array<VertexHandle, 3>& face) {
-      std::array<std::uint32_t, 3> vertices{};
-      for (std::size_t i = 0; i < 3; ++i) vertices[i] = mesh.origin(face[i]);
-      return is_own(vertices, parts, number);
-    };
-    figures.surface = surface_fingerprint(mesh, is_own_face);
+    const OwnOf own(mesh, gathered, parting, number);
+    measure_all(mesh, own, survey, figures);
     if (surface != nullptr) {
       figures.misfits = surface->count_misfits(mesh, gathered, parting, number);
     }
-    figures.layer_tets = find_boundary_layers(mesh).tets.size();
-    for (std::uint32_t slot = 0; slot < mesh.tet_slots(); ++slot) {
-      for (unsigned f = 0; f < 4; ++f) {
-        const HalfFace face(TetHandle(slot), f);
-        if (mesh.is_boundary(face) && is_own_face(mesh.vertices(face))) {
-          ++figures.statistics.boundary_triangles;
-        }
-      }
+    if (survey != nullptr && survey->finds_holders) {
+      find_holders(mesh, numbers, gathered, own, standard, *survey);
     }
   }
+  const Piece own = own_part(gathered, parting, number);
   figures.touched = count_touched(own);
   const std::size_t boundary = figures.statistics.boundary_triangles;
   if (!own.tets.empty()) {
-    MeshData data = to_data(own);
-    data.triangles.clear();
-    data.edges.clear();
     std::vector<std::uint32_t> numbers;
-    TetMesh mesh = TetMesh::build(data, {.report = nullptr, .tet_numbers = &numbers});
+    TetMesh mesh = build_own(own, &numbers);
     figures.statistics = compute_statistics(mesh, standard.goal());
     figures.not_positive = count_not_positive(mesh, figures.statistics);
+    if (survey != nullptr) measure_tets(mesh, figures.rulers, survey->worst);
     count_protected(own, numbers, standard, mesh, figures);
   }
   figures.statistics.boundary_triangles = boundary;
   figures.statistics.vertices = static_cast<std::size_t>(std::count_if(
       own.marks.begin(), own.marks.end(), [](unsigned m) { return (m & kOwn) != 0; }));
   return figures;
+}
+
+void count_own(const Piece& gathered, const Parting& parting, std::uint32_t number,
+               RulerHistograms& counts) {
+  if (gathered.tets.empty()) return;
+  {
+    BuildReport report;
+    const TetMesh mesh = build_first(gathered, report);
+    count_around(mesh, OwnOf(mesh, gathered, parting, number).scope(), counts);
+  }
+  const Piece own = own_part(gathered, parting, number);
+  if (!own.tets.empty()) count_tets(build_own(own, nullptr), counts);
+}
+
+namespace {
+
+/// Whole numbers in the order of the doubles.
+std::uint64_t key_of(double x) {
+  const auto bits = std::bit_cast<std::uint64_t>(x);
+  return (bits >> 63) != 0 ? ~bits : bits | (std::uint64_t{1} << 63);
+}
+double number_of_key(std::uint64_t key) {
+  return std::bit_cast<double>((key >> 63) != 0 ? key & ~(std::uint64_t{1} << 63) : ~key);
+}
+
+/// The score at 1 % of each ruler, over all ranks: bit after bit of its key, so that no rank has the
+/// scores of others.
+std::array<double, kRulerCount> find_one_percent(const RulerShare& all, WorstScores& worst,
+                                                 Ranks& ranks) {
+  std::array<std::uint64_t, kRulerCount> keys{};
+  for (int bit = 63; bit >= 0; --bit) {
+    std::array<std::int64_t, kRulerCount> below{};
+    const auto tried = [&](std::size_t r) { return keys[r] | (std::uint64_t{1} << bit); };
+    for (std::size_t r = 0; r < kRulerCount; ++r) {
+      const std::vector<double>& scores = worst.sorted(r);
+      below[r] = std::partition_point(scores.begin(), scores.end(),
+                                      [&](double x) { return key_of(x) < tried(r); }) -
+                 scores.begin();
+    }
+    ranks.add(below);
+    for (std::size_t r = 0; r < kRulerCount; ++r) {
+      const std::uint64_t count = all.of[r].count;
+      if (count > 0 && static_cast<std::uint64_t>(below[r]) <= place_of_one_percent(count)) {
+        keys[r] = tried(r);
+      }
+    }
+  }
+  std::array<double, kRulerCount> scores{};
+  for (std::size_t r = 0; r < kRulerCount; ++r) scores[r] = number_of_key(keys[r]);
+  return scores;
+}
+
+}  // namespace
+
+namespace {
+
+/// Of all ranks: what each piece knows of a tet comes together.
+face::Held gather_held(const Survey& survey, Ranks& ranks) {
+  std::string mine;
+  put(survey.held, mine);
+  put(survey.shared, mine);
+  face::Held all;
+  std::vector<SharedTet> shared;
+  for (const std::string& from : ranks.gather(mine)) {
+    std::string_view rest = from;
+    face::Held held;
+    std::vector<SharedTet> tets;
+    take(rest, held);
+    take(rest, tets);
+    all.add(held);
+    shared.insert(shared.end(), tets.begin(), tets.end());
+  }
+  std::sort(shared.begin(), shared.end(),
+            [](const SharedTet& a, const SharedTet& b) { return a.vertices < b.vertices; });
+  for (std::size_t i = 0; i < shared.size();) {
+    face::Holders holders;
+    const std::array<VertexId, 4> vertices = shared[i].vertices;
+    for (; i < shared.size() && shared[i].vertices == vertices; ++i) holders.add(shared[i].holders);
+    all.add(holders);
+  }
+  return all;
+}
+
+}  // namespace
+
+void add_survey(Survey survey, Ranks& ranks, Measured& measured) {
+  if (survey.finds_holders) measured.held = gather_held(survey, ranks);
+  const RulerShare& all = measured.figures.rulers;
+  measured.rulers = rulers_of(all, find_one_percent(all, survey.worst, ranks));
+  const std::span<double> lengths = survey.lengths.lengths();
+  std::string mine;
+  put(std::vector<double>(lengths.begin(), lengths.end()), mine);
+  for (const std::string& from : ranks.gather(mine)) {
+    std::string_view rest = from;
+    std::vector<double> others;
+    take(rest, others);
+    for (std::size_t i = 0; i < lengths.size(); ++i) lengths[i] = std::max(lengths[i], others[i]);
+  }
+  measured.lengths = std::move(survey.lengths);
+}
+
+namespace {
+
+void append(face::LocalLengths lengths, std::string& bytes) {
+  put(std::uint64_t{lengths.count()}, bytes);
+  put(std::vector<double>(lengths.lengths().begin(), lengths.lengths().end()), bytes);
+}
+
+face::LocalLengths take_lengths(std::string_view& bytes) {
+  std::uint64_t count = 0;
+  std::vector<double> values;
+  take(bytes, count);
+  take(bytes, values);
+  face::LocalLengths lengths(count);
+  if (values.size() != lengths.lengths().size()) throw Error("a run contradicts itself");
+  std::copy(values.begin(), values.end(), lengths.lengths().begin());
+  return lengths;
+}
+
+}  // namespace
+
+void append(const Measured& measured, std::string& bytes) {
+  put(measured.figures, bytes);
+  put(measured.rulers.has_value(), bytes);
+  put(measured.rulers.value_or(MeshRulers()), bytes);
+  put(measured.histograms.has_value(), bytes);
+  put(measured.histograms.value_or(RulerHistograms()), bytes);
+  append(measured.lengths, bytes);
+}
+
+Measured take_measured(std::string_view& bytes) {
+  Measured measured;
+  bool has_rulers = false;
+  bool has_histograms = false;
+  take(bytes, measured.figures);
+  take(bytes, has_rulers);
+  take(bytes, measured.rulers.emplace());
+  take(bytes, has_histograms);
+  take(bytes, measured.histograms.emplace());
+  if (!has_rulers) measured.rulers.reset();
+  if (!has_histograms) measured.histograms.reset();
+  measured.lengths = take_lengths(bytes);
+  return measured;
 }
 
 }  // namespace tetmend::pieces

@@ -117,14 +117,18 @@ void FolderRun::split(const OutOfCore& files, const std::filesystem::path& folde
       add_protected(mesh_file, options, mesh, saved.division.pieces);
       PieceRun steps(mesh, saved.division, tools.task());
       SealedShelf first = run_folder.new_step(1, saved);
-      saved.before = steps.measure_before(&first);
+      saved.before = steps.measure_before({.rulers = true,
+                                           .histograms = true,
+                                           .vertices = saved.vertices,
+                                           .tets = mesh_file.tets()},
+                                          &first);
       if (!tools.plan().surface.is_fixed()) {
         tools.plan().surface.check_length(mesh.diagonal());
         run_folder.save_surface(
             saved, steps.hold_surface(tools.plan().surface.envelope_options(), &first));
       }
-      check_before(saved.before, options, files.input);
-      const MeshStatistics& before = saved.before.statistics;
+      check_before(saved.before.figures, options, files.input);
+      const MeshStatistics& before = saved.before.figures.statistics;
       saved.run.limits = {before.tets, before.n_bad,
                           tools.plan().growth.most(before.tets).value_or(RunLimits().most_tets)};
       saved.run.bounds = steps.state().bounds;
@@ -234,7 +238,7 @@ std::size_t FolderRun::improve(const std::vector<std::size_t>& pieces, const Opt
   });
 }
 
-std::optional<Result> FolderRun::join(const Options& options) {
+std::optional<Result> FolderRun::join(const Options& options, face::Portrait* portrait) {
   const FolderLock lock(folder_.path(), platform::Sharing::none);
   load_again();
   const Round now = round();
@@ -266,7 +270,7 @@ std::optional<Result> FolderRun::join(const Options& options) {
     }
     open();
     if (saved_.run.is_divided) return std::nullopt;
-    return finish(all);
+    return finish(all, portrait);
   });
 }
 
@@ -275,7 +279,7 @@ void FolderRun::hold_surface(const face::SurfaceTolerance& surface, PieceRun& st
   steps.hold_surface(surface.envelope_options(), folder_.load_surface(saved_));
 }
 
-Result FolderRun::finish(const Options& options) {
+Result FolderRun::finish(const Options& options, face::Portrait* portrait) {
   Tools tools(options);
   OneRank ranks;
   SealedShelf from = folder_.pieces_of(saved_);
@@ -287,9 +291,16 @@ Result FolderRun::finish(const Options& options) {
   result.goal = options.goal;
   for (const StepRecord& record : saved_.run.records) result.passes.push_back(to_pass(record));
   hold_surface(tools.plan().surface, steps);
-  const Figures after = steps.measure_after(&to);
+  const Measured after = steps.measure_after(
+      {.rulers = true, .histograms = true, .holders = true, .vertices = saved_.vertices},
+      saved_.before, &to);
   result.surface_change = steps.surface_change();
   check_after(saved_.before, after, kept_by(tools.plan().surface), saved_.mesh.side(), result);
+  if (portrait != nullptr) {
+    portrait->rulers_before = saved_.before.histograms;
+    portrait->rulers_after = after.histograms;
+  }
+  result.notes = face::advice_on(after.held, options, result);
   const std::filesystem::path output = saved_.output;
   WriteDetails details = {.vertices = saved_.vertices,
                           .array_files = array_files_,
@@ -305,10 +316,10 @@ Result FolderRun::finish(const Options& options) {
     result.carried = std::move(carried.arrays);
     for (std::string& text : carried.notes) result.notes.push_back(std::move(text));
   } else {
-    result.notes.push_back(why_as_it_was(result));
-    result.after = result.before;
-    result.touched_tets = 0;
-    if (steps.surface() != nullptr) result.surface_change = steps.surface()->unchanged();
+    std::optional<SurfaceChange> unchanged;
+    if (steps.surface() != nullptr) unchanged = steps.surface()->unchanged();
+    result.notes.push_back(stay_as_it_was(unchanged, result));
+    if (portrait != nullptr) portrait->rulers_after = saved_.before.histograms;
     FolderShelf again(folder_.make_step(last + 1));
     DividedMesh slices(again, ranks, saved_.vertices);
     details.parts = saved_.division.pieces;

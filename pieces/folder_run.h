@@ -54,8 +54,9 @@ class FolderRun {
   /// When all pieces of the round are finished: divides anew for the next one, or checks all and
   /// writes the output. Killed on the way, it can be called again.
   /// @throws Error when a piece is missing, it names them; and when another program works here
+  /// @param portrait null, or takes the histograms of the rulers
   /// @return what the run did, when it is finished now
-  std::optional<Result> join(const Options& options);
+  std::optional<Result> join(const Options& options, face::Portrait* portrait = nullptr);
 
  private:
   void load_again();
@@ -63,7 +64,7 @@ class FolderRun {
   void check_trace(const std::vector<std::size_t>& pieces) const;
   void hold_surface(const face::SurfaceTolerance& surface, PieceRun& steps) const;
   Options options_of_run(const Options& options) const;
-  Result finish(const Options& options);
+  Result finish(const Options& options, face::Portrait* portrait);
 
   RunFolder folder_;
   SavedRun saved_;

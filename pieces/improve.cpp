@@ -3,19 +3,18 @@
 #include "pieces/improve.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstring>
 #include <memory>
 #include <utility>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "envelope/kept_points.h"
 #include "face/advice.h"
 #include "face/arena.h"
 #include "face/carry.h"
+#include "face/growth.h"
 #include "face/mesh_access.h"
 #include "face/plan.h"
 #include "face/recorded.h"
@@ -30,8 +29,10 @@
 #include "kernel/rulers.h"
 #include "kernel/shared_parts.h"
 #include "kernel/size_field.h"
+#include "kernel/stopwatch.h"
 #include "kernel/surface_fingerprint.h"
 #include "kernel/volume_rounding.h"
+#include "pieces/mesh_files.h"
 #include "pieces/piece_trace.h"
 #include "pieces/slices.h"
 #include "schedule/limit/surface_limit.h"
@@ -39,21 +40,6 @@
 namespace tetmend::pieces {
 
 namespace {
-
-/// Adds the time from its making to its end to a sum.
-class Stopwatch {
- public:
-  explicit Stopwatch(double& seconds) : seconds_(seconds) {}
-  ~Stopwatch() {
-    seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-  }
-  Stopwatch(const Stopwatch&) = delete;
-  Stopwatch& operator=(const Stopwatch&) = delete;
-
- private:
-  double& seconds_;
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
 
 /// One call of improve().
 class Improvement {
@@ -120,6 +106,7 @@ class Improvement {
   std::optional<SurfaceChange> unchanged_surface_;
   face::SurfaceMarks marks_;  // where the surface may move
   std::uint64_t surface_before_ = 0;
+  face::LocalLengths lengths_;
   Result result_;
 };
 
@@ -174,8 +161,9 @@ void Improvement::prepare() {
 void Improvement::measure_before(const TetMesh& mesh) {
   const Stopwatch watch(result_.measuring);
   result_.before = compute_statistics(mesh, options_.goal);
-  if (options_.rulers) result_.rulers_before = measure_rulers(mesh);
-  surface_before_ = surface_fingerprint(mesh);
+  result_.rulers_before = measure_rulers(mesh);
+  lengths_ = face::LocalLengths(mesh, input_.points.size());
+  surface_before_ = result_.surface_fingerprint_before = surface_fingerprint(mesh);
   result_.not_positive_before = count_not_positive(mesh, result_.before);
   if (portrait_ != nullptr) portrait_->draw_before(mesh, result_.rulers_before);
   watcher_.watch(nullptr, quality_indicators(mesh));
@@ -241,7 +229,7 @@ void Improvement::work() {
   }
   if (!trace_.note().empty()) note(trace_.note());
   watcher_.begin(Stage::measuring);
-  const Figures figures = run.measure_after();
+  const Figures figures = run.measure_after().figures;
   result_.surface_change = run.surface_change();
   const bool is_kept = !plan_.surface.is_fixed() ||
                        (figures.surface == surface_before_ &&
@@ -257,19 +245,13 @@ void Improvement::finish() {
   map(joined);
   check_promises();
   if (!face::worse_for_nothing(result_).empty()) {
-    const std::string text = fmt::format("the mesh is as it was: at the end there was {}",
-                                         fmt::join(face::worse_for_nothing(result_), "; "));
-    note(text);
+    note(stay_as_it_was(unchanged_surface_, result_));
     for (std::size_t i = 0; i < result_.vertex_map.size(); ++i) {
       result_.vertex_map[i] = static_cast<std::uint32_t>(i);
     }
     for (std::size_t i = 0; i < result_.tet_map.size(); ++i) {
       result_.tet_map[i] = static_cast<std::uint32_t>(i);
     }
-    result_.after = result_.before;
-    result_.rulers_after = result_.rulers_before;
-    result_.touched_tets = 0;
-    result_.surface_change = unchanged_surface_;
     if (portrait_ != nullptr) {
       portrait_->bad_after = portrait_->bad_before;
       portrait_->are_reasons_known = false;
@@ -279,6 +261,7 @@ void Improvement::finish() {
   } else {
     give_back(joined);
   }
+  if (!options_.rulers) forget_rulers(result_);
   if (!options_.maps) result_.vertex_map = result_.tet_map = {};
 }
 
@@ -290,8 +273,14 @@ void Improvement::measure_after(Joined& joined) {
   mesh.set_standard(plan_.standard);
   mesh.freeze([&](TetHandle t) { return joined.is_protected[numbers[t.index()]] != 0; });
   result_.after = compute_statistics(mesh, options_.goal);
-  if (options_.rulers) result_.rulers_after = measure_rulers(mesh);
-  result_.surface_fingerprint = result_.surface_fingerprint_before = surface_fingerprint(mesh);
+  result_.rulers_after = measure_rulers(mesh);
+  face::LocalLengths now(input_.points.size());
+  now.add(mesh, [&](VertexHandle v) {
+    const std::uint32_t number = joined.vertex_origins[mesh.origin(v)];
+    return number == kGone ? std::nullopt : std::optional<std::uint64_t>(number);
+  });
+  result_.size_drift = lengths_.drift_to(now);
+  result_.surface_fingerprint = surface_fingerprint(mesh);
   result_.not_positive_after = count_not_positive(mesh, result_.after);
   std::vector<std::pair<TetHandle, Hindrance>> hindrances;
   if (options_.limit) result_.limit = find_surface_limit(mesh, options_.cancel, &hindrances);

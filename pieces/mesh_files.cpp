@@ -309,10 +309,18 @@ Kept kept_by(const face::SurfaceTolerance& surface) {
   return surface.is_fixed() ? Kept::all : surface.is_flat() ? Kept::shape : Kept::nearness;
 }
 
-void check_after(const Figures& before, const Figures& after, Kept kept, double side,
-                 Result& result) {
+void check_after(const Measured& measured_before, const Measured& measured_after, Kept kept,
+                 double side, Result& result) {
+  const Figures& before = measured_before.figures;
+  const Figures& after = measured_after.figures;
+  result.rulers_before = measured_before.rulers;
+  result.rulers_after = measured_after.rulers;
+  if (measured_before.rulers && measured_after.rulers) {
+    result.size_drift = measured_before.lengths.drift_to(measured_after.lengths);
+  }
   result.before = before.statistics;
   result.not_positive_before = before.not_positive;
+  result.build.constrained_faces = before.constrained_faces;
   result.protected_tets = before.protected_tets;
   result.protected_bad_tets = before.protected_bad_tets;
   result.after = after.statistics;
@@ -331,9 +339,21 @@ void check_after(const Figures& before, const Figures& after, Kept kept, double 
   if (!fits) throw Error("the pieces do not fit: this is a bug of tetmend, please report it");
 }
 
-std::string why_as_it_was(const Result& result) {
-  return fmt::format("the mesh is as it was: at the end there was {}",
-                     fmt::join(face::worse_for_nothing(result), "; "));
+void forget_rulers(Result& result) {
+  result.rulers_before = result.rulers_after = std::nullopt;
+  result.size_drift.reset();
+}
+
+std::string stay_as_it_was(const std::optional<SurfaceChange>& surface, Result& result) {
+  std::string why = fmt::format("the mesh is as it was: at the end there was {}",
+                                fmt::join(face::worse_for_nothing(result), "; "));
+  result.after = result.before;
+  result.rulers_after = result.rulers_before;
+  if (result.size_drift) result.size_drift = SizeDrift();
+  result.touched_tets = 0;
+  result.surface_fingerprint = result.surface_fingerprint_before;
+  result.surface_change = surface;
+  return why;
 }
 
 OptionTexts texts_of(const Options& options) {

@@ -83,10 +83,15 @@ Kept kept_by(const face::SurfaceTolerance& surface);
 
 /// Puts the figures into the result. @param side  of the box around the mesh
 /// @throws Error when the pieces do not fit.
-void check_after(const Figures& before, const Figures& after, Kept kept, double side,
+void check_after(const Measured& before, const Measured& after, Kept kept, double side,
                  Result& result);
-/// What a run says when the mesh would have become worse, and stays.
-std::string why_as_it_was(const Result& result);
+/// Of a run that would leave a worse mesh, and gives back its input instead: the figures are those of
+/// the input. @returns why, for the notes
+/// @param surface  of the input, where it may move
+std::string stay_as_it_was(const std::optional<SurfaceChange>& surface, Result& result);
+
+/// Promises are held to them, whether they are asked for or not.
+void forget_rulers(Result& result);
 
 /// Options as set_option() takes them: all that decide on the bytes of a run from file to file. A
 /// schedule of a file is in them as its text.

@@ -3,7 +3,6 @@
 #include "pieces/out_of_core.h"
 
 #include <algorithm>
-#include <chrono>
 #include <memory>
 #include <system_error>
 #include <utility>
@@ -16,6 +15,7 @@
 #include "face/plan.h"
 #include "face/watcher.h"
 #include "face/worse.h"
+#include "kernel/stopwatch.h"
 #include "pieces/bytes.h"
 #include "pieces/improve.h"
 #include "pieces/mesh_output.h"
@@ -26,20 +26,6 @@
 namespace tetmend::pieces {
 
 namespace {
-
-class Stopwatch {
- public:
-  explicit Stopwatch(double& seconds) : seconds_(seconds) {}
-  ~Stopwatch() {
-    seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-  }
-  Stopwatch(const Stopwatch&) = delete;
-  Stopwatch& operator=(const Stopwatch&) = delete;
-
- private:
-  double& seconds_;
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
 
 /// One call of improve_files().
 class FileRun {
@@ -66,6 +52,7 @@ class FileRun {
   Result improve_whole();
   bool read();
   void tell_rest(std::vector<std::string> notes);
+  Wanted wanted() const;
   void measure_before();
   void hold_surface();
   void lock();
@@ -106,11 +93,13 @@ class FileRun {
   std::optional<DividedMesh> mesh_;
   std::optional<PieceRun> steps_;
   std::uint64_t vertices_ = 0;
+  std::uint64_t tets_ = 0;
   bool holds_more_ = false;
   bool is_told_ = false;
   std::vector<std::string> told_;  // of what is lost
   QualityIndicators now_;
-  Figures before_;
+  Measured before_;
+  face::Held held_;
   std::optional<SurfaceChange> unchanged_surface_;
   Result result_;
 };
@@ -151,9 +140,14 @@ Result FileRun::run() {
   measure_after();
   if (files_.costs != nullptr) note_costs();
   if (!trace_.note().empty()) result_.notes.push_back(trace_.note());
+  for (std::string& text : face::advice_on(held_, options_, result_)) {
+    watcher_.noted(text);
+    result_.notes.push_back(std::move(text));
+  }
   result_.trace_trouble = trace_.finish_all(ranks_);
   if (files_.needs_trace && !result_.trace_trouble.empty()) throw Error(result_.trace_trouble);
   write();
+  if (!options_.rulers) forget_rulers(result_);
   watcher_.rethrow();
   return std::move(result_);
 }
@@ -209,6 +203,7 @@ bool FileRun::read() {
   }
   check(options_, division_);
   vertices_ = input.vertices();
+  tets_ = input.tets();
   holds_more_ = input.holds_more(files_.output);
   mesh_.emplace(*shelf_, ranks_, vertices_, files_.first_id);
   add_protected(input, options_, *mesh_, division_.pieces);
@@ -218,11 +213,20 @@ bool FileRun::read() {
 void FileRun::measure_before() {
   watcher_.begin(Stage::measuring);
   const Stopwatch watch(result_.measuring);
-  before_ = steps_->measure_before();
-  check_before(before_, options_, files_.input);
-  result_.before = before_.statistics;
-  steps_->set_limits({before_.statistics.tets, before_.statistics.n_bad,
-                      plan_.growth.most(before_.statistics.tets).value_or(RunLimits().most_tets)});
+  Wanted wanted = this->wanted();
+  wanted.tets = tets_;
+  before_ = steps_->measure_before(wanted);
+  const MeshStatistics& before = before_.figures.statistics;
+  check_before(before_.figures, options_, files_.input);
+  result_.before = before;
+  steps_->set_limits(
+      {before.tets, before.n_bad, plan_.growth.most(before.tets).value_or(RunLimits().most_tets)});
+}
+
+/// A run that goes on may be asked for what this one is not.
+Wanted FileRun::wanted() const {
+  const bool is_asked = files_.portrait != nullptr || !files_.checkpoint.empty();
+  return {.rulers = true, .histograms = is_asked, .holders = true, .vertices = vertices_};
 }
 
 void FileRun::hold_surface() {
@@ -266,7 +270,7 @@ void FileRun::lock() {
 bool FileRun::go_on() {
   if (files_.checkpoint.empty() || ranks_.any(!checkpoint_.has_run())) return false;
   const SavedRun found = checkpoint_.load();
-  limit_pieces(found.before.statistics.tets);
+  limit_pieces(found.before.figures.statistics.tets);
   const SavedRun mine = saved();
   if (found.input != mine.input || found.input_content != mine.input_content ||
       found.options != mine.options || found.label_array != mine.label_array || found.is_finished ||
@@ -278,7 +282,7 @@ bool FileRun::go_on() {
   vertices_ = found.vertices;
   holds_more_ = found.holds_more;
   before_ = found.before;
-  result_.before = before_.statistics;
+  result_.before = before_.figures.statistics;
   for (const StepRecord& record : found.run.records) result_.passes.push_back(to_pass(record));
   if (!found.run.records.empty()) now_ = found.run.records.back().after.indicators;
   mesh_.emplace(*shelf_, ranks_, found.mesh);
@@ -329,9 +333,13 @@ void FileRun::work() {
 void FileRun::measure_after() {
   watcher_.begin(Stage::measuring);
   const Stopwatch watch(result_.measuring);
-  const Figures after = steps_->measure_after();
+  const Measured after = steps_->measure_after(wanted(), before_);
+  held_ = after.held;
   result_.surface_change = steps_->surface_change();
   check_after(before_, after, kept_by(plan_.surface), mesh_->state().side(), result_);
+  if (files_.portrait == nullptr) return;
+  files_.portrait->rulers_before = before_.histograms;
+  files_.portrait->rulers_after = after.histograms;
 }
 
 void FileRun::note_costs() const {
@@ -362,11 +370,9 @@ void FileRun::write() {
   const Stopwatch watch(files_.costs != nullptr ? files_.costs->writing : unasked);
   std::size_t parts = 0;
   if (!face::worse_for_nothing(result_).empty()) {
-    result_.notes.push_back(why_as_it_was(result_));
+    result_.notes.push_back(stay_as_it_was(unchanged_surface_, result_));
     watcher_.noted(result_.notes.back());
-    result_.after = result_.before;
-    result_.touched_tets = 0;
-    result_.surface_change = unchanged_surface_;
+    if (files_.portrait != nullptr) files_.portrait->rulers_after = before_.histograms;
     if (files_.array_files != nullptr && files_.input == files_.output) return;  // nothing to write
     read();  // slices are pieces, too
     parts = division_.pieces;

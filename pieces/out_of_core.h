@@ -9,6 +9,7 @@
 
 #include <tetmend/improve.h>
 
+#include "face/portrait.h"
 #include "pieces/piece_run.h"
 #include "pieces/rank_share.h"
 #include "pieces/ranks.h"
@@ -41,7 +42,8 @@ struct OutOfCore {
   std::string variant = {};                 ///< of the output, see MeshView::variant()
   /// First rank: told what of the input will not be in the output, a sentence each; may throw.
   std::function<void(const std::vector<std::string>&)> tell_lost = {};
-  RunCosts* costs = nullptr;  ///< null, or where they are put
+  RunCosts* costs = nullptr;           ///< null, or where they are put
+  face::Portrait* portrait = nullptr;  ///< null, or takes the histograms of the rulers
   bool needs_trace = false;  ///< without the trace that was asked for, nothing is written: an Error
   VertexId first_id = 0;     ///< of the file's vertices in pieces; cannot show: for tests of that
   /// Changes each piece before it is stored, as a fault would: for tests of the final check.

@@ -38,6 +38,17 @@ Figures sum(const std::vector<PartFigures>& mine, Ranks& ranks) {
   return all;
 }
 
+/// Over all ranks.
+void add_up(RulerHistograms& counts, Ranks& ranks) {
+  std::vector<std::int64_t> all;
+  for (const RulerHistogram& of : counts) all.insert(all.end(), of.counts.begin(), of.counts.end());
+  ranks.add(all);
+  auto from = all.begin();
+  for (RulerHistogram& of : counts) {
+    for (std::size_t& count : of.counts) count = static_cast<std::size_t>(*from++);
+  }
+}
+
 /// Of all ranks, in the order of the parts.
 std::vector<SurfaceShare> share_surface(std::vector<std::pair<std::uint64_t, SurfaceShare>> mine,
                                         Ranks& ranks) {
@@ -194,19 +205,42 @@ Piece PieceRun::gathered(std::size_t part) const {
   return piece;
 }
 
-Figures PieceRun::measure_before(Shelf* next) {
+/// Nothing where it is not wanted.
+std::optional<Survey> PieceRun::survey_for(const Wanted& wanted) {
+  if (!wanted.rulers) return std::nullopt;
+  const std::uint64_t tets = std::max(state_.limits.tets, wanted.tets);
+  return Survey{.worst = WorstScores(tets),
+                .lengths = face::LocalLengths(wanted.vertices),
+                .first_id = mesh_.state().first_id,
+                .vertices = wanted.vertices,
+                .finds_holders = wanted.holders};
+}
+
+Measured PieceRun::measure_before(const Wanted& wanted, Shelf* next) {
   divide_first(next);
+  std::optional<Survey> survey = survey_for(wanted);
   std::vector<PartFigures> mine;
   Bounds bounds = Bounds::of_goal(options_.standard);
   for (const std::size_t part : mesh_.own()) {
     const Piece piece = mesh_.gathered(part);
     const Parting& parting = mesh_.state().parting;
     const auto number = static_cast<std::uint32_t>(part);
-    mine.push_back({part, measure_own(piece, parting, number, options_.standard)});
+    mine.push_back({part, measure_own(piece, parting, number, options_.standard,
+                                      survey ? &*survey : nullptr)});
     bounds.widen(bounds_of_own(piece, parting, number, options_.standard));
   }
   agree_on_bounds(bounds);
-  return sum(mine, mesh_.ranks());
+  Measured measured;
+  measured.figures = sum(mine, mesh_.ranks());
+  if (survey) add_survey(*std::move(survey), mesh_.ranks(), measured);
+  if (!wanted.histograms || !measured.rulers) return measured;
+  RulerHistograms& counts = measured.histograms.emplace(bins_for(*measured.rulers));
+  for (const std::size_t part : mesh_.own()) {
+    count_own(mesh_.gathered(part), mesh_.state().parting, static_cast<std::uint32_t>(part),
+              counts);
+  }
+  add_up(counts, mesh_.ranks());
+  return measured;
 }
 
 /// No piece may have worse tets than the whole mesh had: which piece has which must not show, and a
@@ -445,9 +479,12 @@ void PieceRun::store_unchanged() {
   state_.is_divided = false;
 }
 
-Figures PieceRun::measure_after(Shelf* next) {
+Measured PieceRun::measure_after(const Wanted& wanted, const Measured& before, Shelf* next) {
   if (state_.is_divided) store_unchanged();  // the run was stopped before its first round
   mesh_.divide(division_.pieces, division_.divisions, next);
+  std::optional<Survey> survey = survey_for(wanted);
+  Measured measured;
+  if (wanted.histograms && before.rulers) measured.histograms = bins_for(*before.rulers);
   std::vector<PartFigures> mine;
   std::vector<std::pair<std::uint64_t, SurfaceShare>> shares;
   for (const std::size_t part : mesh_.own()) {
@@ -455,8 +492,9 @@ Figures PieceRun::measure_after(Shelf* next) {
     if (surface_) surface_->label_points(gathered, mesh_.first_added());
     const auto number = static_cast<std::uint32_t>(part);
     const Parting& parting = mesh_.state().parting;
-    mine.push_back(
-        {part, measure_own(gathered, parting, number, options_.standard, surface_.get())});
+    mine.push_back({part, measure_own(gathered, parting, number, options_.standard,
+                                      survey ? &*survey : nullptr, surface_.get())});
+    if (measured.histograms) count_own(gathered, parting, number, *measured.histograms);
     const Piece own = own_part(gathered, parting, number);
     if (surface_) shares.emplace_back(part, share_of(own));
     mesh_.store(part, own);
@@ -466,7 +504,10 @@ Figures PieceRun::measure_after(Shelf* next) {
     surface_change_ = surface_->measure(share_surface(std::move(shares), mesh_.ranks()));
   }
   mesh_.number_added(std::vector<std::uint64_t>(mesh_.parts(), 0));
-  return sum(mine, mesh_.ranks());
+  measured.figures = sum(mine, mesh_.ranks());
+  if (survey) add_survey(*std::move(survey), mesh_.ranks(), measured);
+  if (measured.histograms) add_up(*measured.histograms, mesh_.ranks());
+  return measured;
 }
 
 }  // namespace tetmend::pieces

@@ -127,13 +127,15 @@ class PieceRun {
 
   /// Figures of the mesh as it is, before the run; the first division is made for that.
   /// @param next  see DividedMesh::divide(); here and below
-  Figures measure_before(Shelf* next = nullptr);
+  Measured measure_before(const Wanted& wanted = {}, Shelf* next = nullptr);
   /// Works. Precondition: slices were added.
   void run();
   /// Divides once more and checks that all pieces fit: see measure_own(). Everything is stored again.
   /// Where the surface may move, proves anew how near it is.
+  /// @param before  the same of the mesh as it was; its means make the bins of histograms
   /// @throws Error when they do not.
-  Figures measure_after(Shelf* next = nullptr);
+  Measured measure_after(const Wanted& wanted = {}, const Measured& before = {},
+                         Shelf* next = nullptr);
 
   // run() in steps:
   /// Divides the mesh for the next step. Nothing: all is done.
@@ -155,6 +157,7 @@ class PieceRun {
 
  private:
   void divide_first(Shelf* next);
+  std::optional<Survey> survey_for(const Wanted& wanted);
   void agree_on_bounds(const Bounds& mine);
   void find_bounds();
   void divide_for(const StepRecord& record, Shelf* next);

@@ -24,7 +24,7 @@ constexpr std::string_view kMadeFolder = "tetmend made this folder\n";
 
 /// What a file of this version begins with.
 std::string signature() {
-  return fmt::format("tetmend {}: a run in pieces, 9\n", version());
+  return fmt::format("tetmend {}: a run in pieces, 10\n", version());
 }
 
 void append(const SavedRun& saved, std::string& bytes) {
@@ -42,7 +42,7 @@ void append(const SavedRun& saved, std::string& bytes) {
     put(value, bytes);
   }
   put(saved.division, bytes);
-  put(saved.before, bytes);
+  append(saved.before, bytes);
   append(saved.run, bytes);
   append(saved.mesh, bytes);
   put(saved.is_finished, bytes);
@@ -113,7 +113,7 @@ SavedRun take_run(std::string_view bytes) {
     take(bytes, value);
   }
   take(bytes, saved.division);
-  take(bytes, saved.before);
+  saved.before = take_measured(bytes);
   saved.run = take_run_state(bytes);
   saved.mesh = take_state(bytes);
   take(bytes, saved.is_finished);

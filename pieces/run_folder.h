@@ -39,7 +39,7 @@ struct SavedRun {
   std::string variant;         ///< of the output
   OptionTexts options;
   Division division;
-  Figures before;
+  Measured before;
   RunState run;
   DivisionState mesh;
   bool is_finished = false;  ///< the output is written, and no piece is there any more
