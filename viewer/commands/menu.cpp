@@ -56,6 +56,9 @@ constexpr auto kTexts = std::to_array<Text>({{"open", "Open ..."},
                                              {"pick_kind", "Next kind to pick"},
                                              {"go_to", "Go to ..."},
                                              {"deselect", "Select nothing"},
+                                             {"try_operator", "Try ..."},
+                                             {"keep", "Keep what was tried"},
+                                             {"undo", "Undo what was tried"},
                                              {"worst", "Worst tet"},
                                              {"next_worst", "Next worst tet"},
                                              {"previous_worst", "Worst tet before"},
@@ -140,7 +143,11 @@ bool is_possible(const Command& command, Document& document) {
       std::find(kWithoutMesh.begin(), kWithoutMesh.end(), command.name) != kWithoutMesh.end();
   if (!is_free && !document.has_mesh()) return false;
   if (command.name == "figure") return document.debugger() != nullptr;
-  if (command.name == "deselect") {
+  if (command.name == "keep") {
+    return document.trial() != nullptr && document.trial()->is_accepted();
+  }
+  if (command.name == "undo") return document.trial() != nullptr;
+  if (command.name == "deselect" || command.name == "try_operator") {
     return !std::holds_alternative<std::monostate>(document.selection());
   }
   return true;
