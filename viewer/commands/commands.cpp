@@ -33,10 +33,10 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 8> kGestures
 std::span<const Command> commands() {
   static const std::vector<Command> kAll = [] {
     std::vector<Command> list;
-    for (const auto group : {file_commands(), figure_commands(), view_commands(), show_commands(),
-                             select_commands(), trace_commands(), history_commands(),
-                             ledger_commands(), live_commands(), trial_commands(),
-                             script_commands()}) {
+    for (const auto group :
+         {file_commands(), figure_commands(), view_commands(), show_commands(), select_commands(),
+          trace_commands(), history_commands(), ledger_commands(), live_commands(),
+          trial_commands(), help_commands(), script_commands()}) {
       list.insert(list.end(), group.begin(), group.end());
     }
     return list;
