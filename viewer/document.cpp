@@ -100,6 +100,14 @@ void Document::resize(const Canvas& size) {
   canvas_corner = {0, 0};
 }
 
+void Document::remember(const std::filesystem::path& file) {
+  constexpr std::size_t kMost = 10;
+  const std::string name = std::filesystem::absolute(file).lexically_normal().string();
+  std::erase(recent, name);
+  recent.insert(recent.begin(), name);
+  if (recent.size() > kMost) recent.resize(kMost);
+}
+
 void Document::open(const std::filesystem::path& file) {
   if (is_trace(file)) return open_trace(file);
   if (file.extension() == ".json") return open_trace(explain::trace_of_lesson(file));
@@ -121,6 +129,8 @@ void Document::open(const std::filesystem::path& file) {
   live.forget();
   followed_ = LiveState::idle;
   set_mesh(std::move(mesh), file.string());
+  is_changed_ = false;
+  remember(file);
   not_saved_ = beside;
   data_ = std::move(held);
   notes_ = std::move(notes);
@@ -129,11 +139,25 @@ void Document::open(const std::filesystem::path& file) {
 
 void Document::open_trace(const std::filesystem::path& file) {
   auto debugger = std::make_unique<Debugger>(file);
-  // At first: else nothing of a call inside is seen.
-  const bool isolate = debugger_ == nullptr || view.scene.isolate;
   live.forget();
   followed_ = LiveState::idle;
-  set_mesh(MeasuredMesh(debugger->mesh()), file.string());
+  is_changed_ = false;
+  file_ = file.string();
+  show_debugger(std::move(debugger));
+  remember(file);
+  const std::string& damage = debugger_->file().damage();
+  message = {damage.empty()
+                 ? fmt::format("{}: {} events, {} calls", file.filename().string(),
+                               grouped(debugger_->end()), grouped(debugger_->file().calls().size()))
+                 : damage,
+             !damage.empty()};
+}
+
+/// In place of what is shown, under its name.
+void Document::show_debugger(std::unique_ptr<Debugger> debugger) {
+  // At first: else nothing of a call inside is seen.
+  const bool isolate = debugger_ == nullptr || view.scene.isolate;
+  set_mesh(MeasuredMesh(debugger->mesh()), std::string(file_));
   debugger_ = std::move(debugger);
   view.scene.isolate = isolate;
   teaching = debugger_->lesson().has_value();
@@ -143,16 +167,11 @@ void Document::open_trace(const std::filesystem::path& file) {
   shown_mesh_ = debugger_->mesh_number();
   shown_root_ = shown_call_ = kNoCall;
   show_trace();
-  const std::string& damage = debugger_->file().damage();
-  message = {damage.empty()
-                 ? fmt::format("{}: {} events, {} calls", file.filename().string(),
-                               grouped(debugger_->end()), grouped(debugger_->file().calls().size()))
-                 : damage,
-             !damage.empty()};
 }
 
 void Document::save(const std::filesystem::path& file) {
   write_mesh(file, MeshView(mesh_));
+  if (trial_ == nullptr) is_changed_ = false;
   const bool is_whole = not_saved_.empty();
   message = {fmt::format("wrote {}{}", file.string(), is_whole ? "" : ", without " + not_saved_),
              !is_whole};
@@ -165,6 +184,8 @@ void Document::set_mesh(TetMesh mesh, const std::string& name) {
 void Document::set_mesh(MeasuredMesh mesh, const std::string& name) {
   if (debugger_ != nullptr) view.scene.isolate = false;  // it is for the calls of a trace
   debugger_.reset();
+  trial_.reset();
+  aside_.reset();
   trace_reference_.reset();
   if (given_reference_ != nullptr) given_reference_->forget();  // the colours end elsewhere now
   target_ = {};
@@ -279,6 +300,118 @@ Selection Document::target_of(std::uint32_t call) {
   return target_in(mesh_, c, debugger_->tets_around(c.target()));
 }
 
+// --- the sandbox ---------------------------------------------------------------------------------
+
+struct Document::Shown {
+  MeasuredMesh mesh;
+  std::string file, not_saved;
+  std::shared_ptr<const MeshData> data;
+  std::vector<std::string> notes;
+  std::unique_ptr<Debugger> debugger;
+  std::unique_ptr<ReferenceSurface> trace_reference;
+  Standard standard = Standard(Goal{});
+  ViewSettings view;
+  std::vector<VertexHandle> selected;
+  bool teaching = false;
+  bool is_changed = false;
+};
+
+Document::Document() = default;
+Document::~Document() = default;
+
+std::unique_ptr<Document::Shown> Document::put_aside() {
+  auto shown = std::make_unique<Shown>();
+  shown->selected = pointed_selection(selection_).vertices;
+  shown->mesh.mesh = std::move(mesh_);
+  shown->mesh.box = box_;
+  shown->mesh.ball = ball_;
+  shown->mesh.statistics = statistics_;
+  shown->mesh.regions = regions_;
+  shown->file = file_;
+  shown->not_saved = not_saved_;
+  shown->data = data_;
+  shown->notes = notes_;
+  shown->debugger = std::move(debugger_);
+  shown->trace_reference = std::move(trace_reference_);
+  shown->standard = standard_;
+  shown->view = view;
+  shown->teaching = teaching;
+  shown->is_changed = is_changed_;
+  return shown;
+}
+
+void Document::show_again(Shown& shown) {
+  set_mesh(std::move(shown.mesh), shown.file);
+  not_saved_ = std::move(shown.not_saved);
+  data_ = std::move(shown.data);
+  notes_ = std::move(shown.notes);
+  standard_ = shown.standard;
+  is_changed_ = shown.is_changed;
+  teaching = shown.teaching;
+  trace_reference_ = std::move(shown.trace_reference);
+  debugger_ = std::move(shown.debugger);
+  if (debugger_ != nullptr) {
+    shown_mesh_ = debugger_->mesh_number();
+    show_trace();
+  }
+  view = shown.view;
+  select(selection_of(shown.selected));
+}
+
+void Document::try_operator(const TrialRequest& request) {
+  if (live.is_active() && live.state() != LiveState::paused) {
+    throw Error("try_operator: a run is at work; pause or stop it first");
+  }
+  const TetMesh& mesh = aside_ != nullptr ? aside_->mesh.mesh : mesh_;
+  auto trial = std::make_unique<Trial>(mesh, live.registry(), request, file_);
+  std::unique_ptr<Shown> aside = aside_ != nullptr ? std::move(aside_) : put_aside();
+  const Camera camera = view.camera;
+  show_debugger(trial->take_debugger());
+  view.camera = camera;
+  aside_ = std::move(aside);
+  trial_ = std::move(trial);
+  if (call_in_view() && !is_seen(*call_in_view())) fit();
+  message = {fmt::format("{}: {}; keep it, or undo it", request.operator_name, trial_->outcome()),
+             false};
+}
+
+void Document::undo_trial() {
+  if (trial_ == nullptr) throw Error("undo: no operator was tried");
+  const std::string name = trial_->request().operator_name;
+  const auto aside = std::move(aside_);
+  show_again(*aside);
+  message = {fmt::format("{}: undone, the mesh is as it was", name), false};
+}
+
+void Document::keep_trial() {
+  if (trial_ == nullptr) throw Error("keep: no operator was tried");
+  if (!trial_->is_accepted()) throw Error("keep: the operator was refused, there is nothing to keep");
+  if (live.is_active()) throw Error("keep: a run is paused, and has a mesh of its own; stop it first");
+  const std::string name = trial_->request().operator_name;
+  TetMesh result = trial_->take_result();
+  result.set_standard(aside_->standard);
+  result.collect_garbage();
+  const auto aside = std::move(aside_);
+  const Camera camera = view.camera;
+  set_mesh(MeasuredMesh(std::move(result)), aside->file);
+  live.forget();
+  followed_ = LiveState::idle;
+  not_saved_ = std::move(aside->not_saved);
+  standard_ = aside->standard;
+  view = aside->view;
+  view.camera = camera;
+  is_changed_ = true;
+  message = {fmt::format("{}: kept; {} tets, {} of them bad, not saved yet", name,
+                         grouped(statistics_.tets), grouped(statistics_.n_bad)),
+             false};
+}
+
+std::string Document::title() const {
+  if (!has_mesh()) return "tetmend-view";
+  return fmt::format("{}{} - tetmend-view", has_unsaved() ? "* " : "",
+                     std::filesystem::path(file_).filename().string());
+}
+
 void Document::compare_with(const std::filesystem::path& file) {
   before_ = compute_statistics(read_tet_mesh(file), mesh_.standard().goal());
 }
@@ -345,6 +478,7 @@ void Document::follow_live() {
   if (snapshot != nullptr) {
     std::string beside = std::move(not_saved_);
     set_mesh(std::move(*snapshot), file_);
+    is_changed_ = true;
     not_saved_ = std::move(beside);
     mark_live_call(live.progress());
   }
@@ -377,6 +511,7 @@ bool Document::awaits_live() const {
 
 void Document::select(const Selection& selection) {
   selection_ = selection;
+  is_alone_ = false;
   picked_through_.reset();
   highlight_.reset();
   legend_.clear();

@@ -15,6 +15,7 @@
 #include "kernel/tet_mesh.h"
 #include "viewer/debugger/debugger.h"
 #include "viewer/live/live_run.h"
+#include "viewer/live/trial.h"
 #include "viewer/mesh/measured_mesh.h"
 #include "viewer/mesh/reference_surface.h"
 #include "viewer/mesh/scene.h"
@@ -44,6 +45,13 @@ struct Pointed {
   friend bool operator==(const Pointed&, const Pointed&) = default;
 };
 
+/// A command of the window that waits: work would be lost.
+struct WaitingCommand {
+  std::string name;
+  std::string argument;    ///< a file; empty: none
+  bool is_saving = false;  ///< the user has chosen to save first
+};
+
 /// A colour of the picture and what it means.
 struct LegendEntry {
   Colour colour;
@@ -54,6 +62,11 @@ struct LegendEntry {
 /// asked for, and kept until something it depends on has changed.
 class Document {
  public:
+  Document();
+  ~Document();
+  Document(const Document&) = delete;
+  Document& operator=(const Document&) = delete;
+
   ViewSettings view;
   Canvas window;                ///< the whole picture, panels included
   Canvas canvas;                ///< the part of it that shows the mesh
@@ -66,6 +79,8 @@ class Document {
   bool offer_choices = false;  ///< a menu of what can be done with the selection
   bool ask_place = false;      ///< the user wants to say where to go
   bool quit = false;
+  std::optional<WaitingCommand> waiting;  ///< for the user to save, or to let go
+  std::vector<std::string> recent;        ///< files that were opened, the last first
   /// Of a trace, for a lecture hall: large text, the picture, the text of the lesson, the shell and
   /// the algorithm, and no more. On when a lesson is opened.
   bool teaching = false;
@@ -95,6 +110,24 @@ class Document {
   void show_trace();
   /// The camera goes to each outermost call, and to each isolated one that it does not see.
   bool follow_trace = true;
+
+  /// Tries an operator at a place of the mesh that is shown, and shows the attempt as a call of the
+  /// debugger. A trial that was looked at is undone first. @throws Error as Trial, and nothing
+  /// changes; also while a run is at work that is not paused.
+  void try_operator(const TrialRequest& request);
+  /// The one that is shown, or null.
+  const Trial* trial() const { return trial_.get(); }
+  /// The mesh becomes what the attempt has made of it, with its holes closed; what was open is left.
+  /// @throws Error when it was refused, when there is none, and while a run is paused.
+  void keep_trial();
+  /// Shows again what was shown before, bit for bit. @throws Error when there is no trial.
+  void undo_trial();
+
+  /// What is shown has not been written to a file: kept trials, what a run has made; or a run is
+  /// at work.
+  bool has_unsaved() const { return is_changed_ || live.is_active(); }
+  /// "part.mesh - tetmend-view", with a mark where something is unsaved.
+  std::string title() const;
 
   /// Reads a mesh for its statistics only: the state before. @throws Error, and nothing changes.
   void compare_with(const std::filesystem::path& file);
@@ -154,8 +187,7 @@ class Document {
   Pointed pointed_call(std::uint32_t call) const;
   /// What is selected, by its vertices.
   Pointed pointed_selection(const Selection& selection) const;
-  /// What has these vertices: a vertex, an edge, of a face one of its tets, a tet. Nothing if the
-  /// mesh has it not.
+  /// What has these vertices: a vertex, an edge, a face, a tet. Nothing if the mesh has it not.
   Selection selection_of(std::span<const VertexHandle> vertices) const;
   Pointed hovered;   ///< by the mouse, in the last layout
   Pointed hovering;  ///< likewise, in the one that is being made
@@ -197,6 +229,8 @@ class Document {
   /// Shows the whole mesh again, from where it was seen before fly_to_worst(). In a trace the camera
   /// follows the calls, and what is alone stays so.
   void end_alone();
+  /// Shows the rest, or hides all but the call at hand or what is selected.
+  void toggle_isolation();
   void forget_camera_before_alone() { camera_before_alone_.reset(); }
   std::optional<std::size_t> place_among_worst();  ///< of the selected tet
 
@@ -209,6 +243,12 @@ class Document {
   unsigned highlight_revision();
 
  private:
+  /// What a trial puts aside, to be shown again.
+  struct Shown;
+  std::unique_ptr<Shown> put_aside();
+  void show_again(Shown& shown);
+  void show_debugger(std::unique_ptr<Debugger> debugger);
+  void remember(const std::filesystem::path& file);
   void open_trace(const std::filesystem::path& file);
   void forget_derived();
   void follow_changes(std::span<const TetHandle> changed);
@@ -244,6 +284,8 @@ class Document {
   std::optional<SurfaceDeparture> departure_;  // of the mesh as it is
   std::vector<Label> regions_;
   Selection selection_;
+  bool is_alone_ = false;    // the selection was isolated, not only picked
+  bool is_changed_ = false;  // the mesh is in no file
   std::optional<Camera> camera_before_alone_;
   /// Where the last pick took a bad tet behind the surface.
   struct Place {
@@ -254,6 +296,8 @@ class Document {
   LiveState followed_ = LiveState::idle;  // what the user was told
   std::size_t followed_call_ = 0;         // of a run: whose place is marked
 
+  std::unique_ptr<Shown> aside_;  // of the trial
+  std::unique_ptr<Trial> trial_;  // outlives its debugger
   std::unique_ptr<Debugger> debugger_;
   std::size_t shown_mesh_ = 0;          // see Debugger::mesh_number()
   std::uint32_t shown_root_ = kNoCall;  // outermost call that the camera went to

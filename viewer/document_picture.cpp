@@ -104,6 +104,7 @@ void Document::fit() {
 
 void Document::fly_to(const Selection& selection) {
   select(selection);
+  is_alone_ = true;
   if (view.scene.isolate) return fit();
   // Close enough to see it, far enough to see where it is.
   const Ball around = ball_around(mesh_, selection_);
@@ -120,7 +121,18 @@ void Document::fly_to_worst(std::size_t i) {
   view.scene.isolate = true;
   turn_to(view.camera, corners(mesh_, tet));
   select(tet);
+  is_alone_ = true;
   fit();
+}
+
+void Document::toggle_isolation() {
+  const bool is_own = selection_ != target_ && !std::holds_alternative<std::monostate>(selection_);
+  const bool is_picked = debugger_ != nullptr && is_own && !is_alone_;
+  if (is_picked) {  // was seen in its place so far
+    is_alone_ = true;
+    isolated_.settings.reset();
+  }
+  view.scene.isolate = is_picked || !view.scene.isolate;
 }
 
 void Document::end_alone() {
@@ -184,6 +196,7 @@ std::vector<TetHandle> Document::isolated() const {
   if (!view.scene.isolate) return {};
   const bool is_own = selection_ != target_ && !std::holds_alternative<std::monostate>(selection_);
   if (!is_own) return near_;
+  if (debugger_ != nullptr && !is_alone_) return near_;  // a click only points it out
   std::vector<TetHandle> selected = tets_of(mesh_, selection_);
   const bool is_among = std::any_of(selected.begin(), selected.end(), [&](TetHandle t) {
     return std::binary_search(near_.begin(), near_.end(), t);
@@ -369,6 +382,10 @@ Pointed Document::pointed_selection(const Selection& selection) const {
     const auto ends = mesh_.vertices(*e);
     return {{ends[0], ends[1]}};
   }
+  if (const auto* f = std::get_if<HalfFace>(&selection)) {
+    const auto corners = mesh_.vertices(*f);
+    return {{corners.begin(), corners.end()}};
+  }
   if (const auto* v = std::get_if<VertexHandle>(&selection)) return {{*v}};
   return {};
 }
@@ -384,6 +401,12 @@ Selection Document::selection_of(std::span<const VertexHandle> vertices) const {
                                      [&](VertexHandle v) { return mesh_.local_index(t, v) < 4; });
     if (!has_all) continue;
     if (vertices.size() == 2) return *edge_in(mesh_, t, vertices[0], vertices[1]);
+    for (unsigned f = 0; f < 4 && vertices.size() == 3; ++f) {
+      const VertexHandle apex = mesh_.vertices(t)[f];
+      if (std::find(vertices.begin(), vertices.end(), apex) == vertices.end()) {
+        return HalfFace(t, f);
+      }
+    }
     return t;
   }
   return {};

@@ -149,6 +149,35 @@ class OverlayDrawer {
           Anchor::middle);
   }
 
+  /// Directions of the axes; those that point away come first, so that the others lie over them.
+  void triad() {
+    constexpr double kLength = 30;
+    const Camera& camera = document_.view.camera;
+    const double length = kLength * scale_;
+    const Place middle = {right_ - 2 * length, bottom_ - 2 * length};
+    struct Axis {
+      glm::dvec3 direction;
+      Colour colour;
+      const char* name;
+    };
+    std::array<Axis, 3> axes = {{{{1, 0, 0}, {205, 60, 60, 255}, "x"},
+                                 {{0, 1, 0}, {50, 150, 60, 255}, "y"},
+                                 {{0, 0, 1}, {60, 95, 210, 255}, "z"}}};
+    std::sort(axes.begin(), axes.end(), [&](const Axis& a, const Axis& b) {
+      return glm::dot(a.direction, camera.forward()) > glm::dot(b.direction, camera.forward());
+    });
+    for (const Axis& axis : axes) {
+      const double x = glm::dot(axis.direction, camera.right());
+      const double y = -glm::dot(axis.direction, camera.up());
+      drawing_.line(middle, {middle.x + length * x, middle.y + length * y},
+                    Pen{axis.colour, 2.5 * scale_});
+      Text text = figure::centred({middle.x + 1.35 * length * x, middle.y + 1.35 * length * y},
+                                  axis.name, 0.9 * kTextSize * scale_);
+      text.colour = ink_;
+      drawing_.add(std::move(text));
+    }
+  }
+
   Drawing take() { return std::move(drawing_); }
 
  private:
@@ -474,6 +503,7 @@ Drawing draw_overlay(Document& document, const OverlayLook& look) {
   if (!view.title.empty()) drawer.title();
   if (view.colour_bar) drawer.colour_bar();
   if (view.scale_bar) drawer.scale_bar();
+  if (look.has_triad) drawer.triad();
   return drawer.take();
 }
 

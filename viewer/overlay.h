@@ -14,8 +14,9 @@ namespace tetmend::viewer {
 
 /// How large it is, in pixels.
 struct OverlayLook {
-  double scale = 1;       ///< 1 for an ordinary screen, 2 for one with twice as many pixels
-  double text_size = 16;  ///< of numbers and legend
+  double scale = 1;        ///< 1 for an ordinary screen, 2 for one with twice as many pixels
+  double text_size = 16;   ///< of numbers and legend
+  bool has_triad = false;  ///< the directions of the axes, at the lower right
   /// Of a text of that size, as it will be painted.
   std::function<double(const std::string&, double)> text_width =
       [](const std::string& text, double size) { return figure::text_width(text, size); };

@@ -126,6 +126,7 @@ class Viewer {
       : display_(size) {
     const std::filesystem::path meshes = TETMEND_SOURCE_DIR "/assets/meshes";
     std::filesystem::current_path(folder_ / ".");
+    ::setenv("XDG_CONFIG_HOME", (folder_ / "settings").c_str(), 1);  // not those of the user
     err_ = ::open("err", O_WRONLY | O_CREAT, 0666);
     std::vector<std::string> arguments = {"--size", size,       "--scale",
                                           scale,    "--report", "report.json"};
@@ -142,9 +143,9 @@ class Viewer {
   Viewer& operator=(const Viewer&) = delete;
 
   /// Ends the program by its key; its last state. Keys are taken in order: so this waits for all
-  /// that was typed before.
+  /// that was typed before. Where something is unsaved, that is let go.
   nlohmann::json quit() {
-    type("key ctrl+q");
+    type("key ctrl+q key d");
     wait_for("report.json");
     CHECK(program_->wait() == 0);
     return nlohmann::json::parse(read_text("report.json"));

@@ -99,6 +99,8 @@ std::span<const Command> trace_commands();
 std::span<const Command> history_commands();
 std::span<const Command> ledger_commands();
 std::span<const Command> live_commands();
+std::span<const Command> trial_commands();
+std::span<const Command> help_commands();
 std::span<const Command> script_commands();
 
 }  // namespace tetmend::viewer

@@ -33,9 +33,10 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 8> kGestures
 std::span<const Command> commands() {
   static const std::vector<Command> kAll = [] {
     std::vector<Command> list;
-    for (const auto group : {file_commands(), figure_commands(), view_commands(), show_commands(),
-                             select_commands(), trace_commands(), history_commands(),
-                             ledger_commands(), live_commands(), script_commands()}) {
+    for (const auto group :
+         {file_commands(), figure_commands(), view_commands(), show_commands(), select_commands(),
+          trace_commands(), history_commands(), ledger_commands(), live_commands(),
+          trial_commands(), help_commands(), script_commands()}) {
       list.insert(list.end(), group.begin(), group.end());
     }
     return list;
@@ -67,7 +68,30 @@ bool guarded(Document& document, const std::function<void()>& work) {
   return false;
 }
 
+namespace {
+
+/// Leaves the mesh that is shown for something else, or for good.
+bool leaves_mesh(const Command& command, const json& arguments) {
+  return command.name == "quit" || command.name == "reload" ||
+         (command.name == "open" && !arguments.empty());
+}
+
+}  // namespace
+
+void run_waiting(Session& session) {
+  const WaitingCommand waiting = *session.document.waiting;
+  session.document.waiting.reset();
+  json arguments = json::array();
+  if (!waiting.argument.empty()) arguments.push_back(waiting.argument);
+  guarded(session.document, [&] { find_command(waiting.name).run(session, arguments); });
+}
+
 void run_from_window(const Command& command, Session& session, const json& arguments) {
+  if (leaves_mesh(command, arguments) && session.document.has_unsaved()) {
+    const std::string file = arguments.empty() ? "" : arguments[0].get<std::string>();
+    session.document.waiting = WaitingCommand{std::string(command.name), file};
+    return;
+  }
   guarded(session.document, [&] { command.run(session, arguments); });
 }
 

@@ -51,10 +51,14 @@ const Command& find_command(std::string_view name);
 /// The command of a key such as "Ctrl+Shift+N", or null.
 const Command* command_for_keys(std::string_view keys);
 
+/// Runs the command that waits, whatever is lost. Precondition: there is one.
+void run_waiting(Session& session);
+
 /// Does it. Whatever is thrown becomes the message of the document, and the result is false.
 bool guarded(Document& document, const std::function<void()>& work);
 
-/// Runs it as a menu or key does: guarded.
+/// Runs it as a menu or key does: guarded, and what would lose unsaved work waits for the user's
+/// answer, see Document::waiting.
 void run_from_window(const Command& command, Session& session,
                      const nlohmann::json& arguments = nlohmann::json::array());
 
@@ -67,6 +71,8 @@ std::span<const std::pair<std::string_view, std::string_view>> mouse_gestures();
 /// The place in a trace for scripts and tests: position, call, verdict, shell, code line.
 /// Precondition: a trace is open.
 nlohmann::json trace_state_of(Document& document);
+/// The operator that was tried and how it ended; null without one.
+nlohmann::json trial_state_of(const Document& document);
 
 /// The state of the document for scripts and tests: counts, selection, view.
 nlohmann::json state_of(Document& document);

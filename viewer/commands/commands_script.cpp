@@ -136,6 +136,10 @@ json state_of(Document& document) {
   } else if (const auto* e = std::get_if<TetEdge>(&document.selection())) {
     const auto ends = mesh.vertices(*e);
     selection = {{"kind", "edge"}, {"from", ends[0].index()}, {"to", ends[1].index()}};
+  } else if (const auto* f = std::get_if<HalfFace>(&document.selection())) {
+    const auto corners = mesh.vertices(*f);
+    selection = {{"kind", "face"},
+                 {"vertices", {corners[0].index(), corners[1].index(), corners[2].index()}}};
   } else if (const auto* v = std::get_if<VertexHandle>(&document.selection())) {
     selection = {{"kind", "vertex"}, {"vertex", v->index()}};
   }
@@ -165,6 +169,10 @@ json state_of(Document& document) {
           {"triangles", scene.surface.size() / 3},
           {"note", scene.note},
           {"run", to_string(document.live.state())},
+          {"title", document.title()},
+          {"unsaved", document.has_unsaved()},
+          {"recent", document.recent},
+          {"trial", trial_state_of(document)},
           {"message", document.message.text},
           {"selection", selection},
           {"notes", document.notes()},

@@ -27,13 +27,13 @@ json pick(Session& s, const json& a) {
 }
 
 json pick_kind(Session& s, const json& a) {
-  constexpr std::array<std::string_view, 4> kNames = {"nearest", "tet", "edge", "vertex"};
+  constexpr std::array<std::string_view, 5> kNames = {"nearest", "tet", "edge", "face", "vertex"};
   auto next = (static_cast<std::size_t>(s.document.pick_kind) + 1) % kNames.size();
   if (!a.empty()) {
     const std::string name = Arguments("pick_kind", a).text(0);
     next = static_cast<std::size_t>(std::find(kNames.begin(), kNames.end(), name) - kNames.begin());
     if (next == kNames.size()) {
-      throw Error(fmt::format("pick_kind: '{}' is none of nearest, tet, edge, vertex", name));
+      throw Error(fmt::format("pick_kind: '{}' is none of nearest, tet, edge, face, vertex", name));
     }
   }
   s.document.pick_kind = static_cast<PickKind>(next);
@@ -67,6 +67,19 @@ json select_edge(Session& s, const json& a) {
   return nullptr;
 }
 
+json select_face(Session& s, const json& a) {
+  const Arguments arguments("select_face", a);
+  std::array<VertexHandle, 3> corners;
+  for (std::size_t i = 0; i < 3; ++i) corners[i] = read_vertex(s.document, arguments, i);
+  const Selection face = s.document.selection_of(corners);
+  if (!std::holds_alternative<HalfFace>(face)) {
+    throw Error(fmt::format("there is no face {} {} {}", corners[0].index(), corners[1].index(),
+                            corners[2].index()));
+  }
+  s.document.select(face);
+  return nullptr;
+}
+
 /// What "tet 17", "edge 3 17", "vertex 5" or "17" name in the mesh. @throws Error otherwise.
 json go_to(Session& s, const json& a) {
   need_mesh(s.document);
@@ -87,11 +100,13 @@ json go_to(Session& s, const json& a) {
     select_tet(s, numbers);
   } else if (is_whole && kind == "edge" && numbers.size() == 2) {
     select_edge(s, numbers);
+  } else if (is_whole && kind == "face" && numbers.size() == 3) {
+    select_face(s, numbers);
   } else if (is_whole && kind == "vertex" && numbers.size() == 1) {
     select_vertex(s, numbers);
   } else {
     throw Error(fmt::format(
-        "go_to: '{}' is not understood: tet NUMBER, edge FROM TO or vertex NUMBER", text));
+        "go_to: '{}' is not understood: tet NUMBER, edge FROM TO, face A B C or vertex NUMBER", text));
   }
   s.document.fly_to(Selection(s.document.selection()));
   return state_of(s.document)["selection"];
@@ -129,14 +144,16 @@ constexpr std::array kSelectCommands = {
     Command{"pick", "", "", "pick(X, Y)", "Select what lies under a pixel; the result tells what",
             &pick},
     Command{"pick_kind", "Q", kSelect, "pick_kind(\"edge\")",
-            "A click picks what is nearest, tets, edges, or vertices", &pick_kind},
+            "A click picks what is nearest, tets, edges, faces, or vertices", &pick_kind},
     Command{"select_tet", "", "", "select_tet(NUMBER)", "Select a tet; numbers count from 0",
             &select_tet},
     Command{"select_edge", "", "", "select_edge(FROM, TO)", "Select the edge of two vertices",
             &select_edge},
+    Command{"select_face", "", "", "select_face(A, B, C)", "Select the face of three vertices",
+            &select_face},
     Command{"select_vertex", "", "", "select_vertex(NUMBER)", "Select a vertex", &select_vertex},
     Command{"go_to", "Ctrl+G", kSelect, "go_to(\"edge 3 17\")",
-            "Select a tet NUMBER, an edge FROM TO or a vertex NUMBER, and go there", &go_to},
+            "Select a tet NUMBER, an edge FROM TO, a face A B C or a vertex NUMBER, and go there", &go_to},
     Command{"deselect", "Escape", kSelect, "deselect()", "Select nothing", &deselect},
     Command{"worst", "W", kSelect, "worst(N)",
             "Show the N-th worst tet alone, from where it is seen best; the result is its number",

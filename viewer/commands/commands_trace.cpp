@@ -219,7 +219,7 @@ json change_speed(Session& s, const json&) {
 /// Of a mesh without a trace: the selection.
 json isolate(Session& s, const json&) {
   need_mesh(s.document);
-  s.document.view.scene.isolate = !s.document.view.scene.isolate;
+  s.document.toggle_isolation();
   s.document.forget_camera_before_alone();
   return nullptr;
 }

@@ -84,7 +84,7 @@ constexpr std::array kViewCommands = {
     Command{"theme", "T", kView, "theme(\"dark\")", "Light or dark", &theme},
     Command{"panels", "Tab", kView, "panels()", "Panels on or off",
             &toggle<&Document::show_panels>},
-    Command{"keys", "F1", kView, "keys()", "This list of keys", &toggle<&Document::show_keys>},
+    Command{"keys", "F1", "Help", "keys()", "This list of keys", &toggle<&Document::show_keys>},
     Command{"numbers", "#", kView, "numbers()",
             "Numbers of the vertices of the call at hand or of the selection",
             &toggle<&ViewSettings::numbers>},

@@ -73,14 +73,17 @@ void Controller::key(std::string_view keys) {
 
 void Controller::drop(const std::filesystem::path& file) {
   guarded(session_.document, [&] {
-    if (file.extension() != ".json") return session_.document.open(file);
+    const Command& open = find_command("open");
+    if (file.extension() != ".json") return run_from_window(open, session_, {file.string()});
     std::ifstream in(file);
     std::stringstream text;
     if (!in || !(text << in.rdbuf())) {
       throw Error(fmt::format("{}: cannot read the view", file.string()));
     }
     const auto content = nlohmann::json::parse(text.str(), nullptr, false);
-    if (content.is_object() && content.contains("steps")) return session_.document.open(file);
+    if (content.is_object() && content.contains("steps")) {
+      return run_from_window(open, session_, {file.string()});
+    }
     apply_json_text(session_.document.view, text.str());
   });
 }

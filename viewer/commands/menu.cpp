@@ -56,6 +56,9 @@ constexpr auto kTexts = std::to_array<Text>({{"open", "Open ..."},
                                              {"pick_kind", "Next kind to pick"},
                                              {"go_to", "Go to ..."},
                                              {"deselect", "Select nothing"},
+                                             {"try_operator", "Try ..."},
+                                             {"keep", "Keep what was tried"},
+                                             {"undo", "Undo what was tried"},
                                              {"worst", "Worst tet"},
                                              {"next_worst", "Next worst tet"},
                                              {"previous_worst", "Worst tet before"},
@@ -100,7 +103,10 @@ constexpr auto kTexts = std::to_array<Text>({{"open", "Open ..."},
                                              {"live_step", "To the next change"},
                                              {"live_step_pass", "To the end of the pass"},
                                              {"live_debug", "Debug this run"},
-                                             {"live_stop", "Stop"}});
+                                             {"live_stop", "Stop"},
+                                             {"manual", "Manual"},
+                                             {"lectures", "Lectures"},
+                                             {"about", "About tetmend"}});
 
 bool is_trace_possible(std::string_view name, Document& document) {
   const Debugger* debugger = document.debugger();
@@ -131,16 +137,54 @@ std::string menu_text(const Command& command) {
   return std::string(command.help.substr(0, command.help.find(';')));
 }
 
+std::optional<bool> is_on(const Command& command, const Document& document) {
+  const ViewSettings& view = document.view;
+  const SceneSettings& scene = view.scene;
+  const std::array<std::pair<std::string_view, bool>, 23> states = {
+      {{"edges", view.edges},
+       {"bad", scene.bad},
+       {"bad_beyond_cuts", scene.bad_beyond_cuts},
+       {"constraints", scene.constraints},
+       {"ghosts", scene.ghosts > 0},
+       {"reference", scene.colour == kDistance},
+       {"shrink", scene.shrink > 0},
+       {"cut_x", scene.cuts[0].on},
+       {"cut_y", scene.cuts[1].on},
+       {"cut_z", scene.cuts[2].on},
+       {"exact", scene.cuts[0].exact},
+       {"orthographic", view.camera.orthographic},
+       {"panels", document.show_panels},
+       {"keys", document.show_keys},
+       {"numbers", view.numbers},
+       {"all_numbers", view.all_numbers},
+       {"legend", view.legend},
+       {"colour_bar", view.colour_bar},
+       {"scale_bar", view.scale_bar},
+       {"isolate", scene.isolate},
+       {"follow", document.follow_trace},
+       {"teaching", document.teaching},
+       {"live_follow", document.follow_changes_live}}};
+  for (const auto& [name, state] : states) {
+    if (name == command.name) return state;
+  }
+  return std::nullopt;
+}
+
 bool is_possible(const Command& command, Document& document) {
   if (command.menu == "Trace") return is_trace_possible(command.name, document);
   if (command.menu == "Run") return is_run_possible(command.name, document);
-  constexpr std::array<std::string_view, 9> kWithoutMesh = {
-      "open", "quit", "screenshot", "copy_view", "paste_view", "theme", "panels", "keys", "legend"};
+  constexpr std::array<std::string_view, 12> kWithoutMesh = {
+      "open",   "quit", "screenshot", "copy_view", "paste_view", "theme",
+      "panels", "keys", "legend",     "manual",    "lectures",   "about"};
   const bool is_free =
       std::find(kWithoutMesh.begin(), kWithoutMesh.end(), command.name) != kWithoutMesh.end();
   if (!is_free && !document.has_mesh()) return false;
   if (command.name == "figure") return document.debugger() != nullptr;
-  if (command.name == "deselect") {
+  if (command.name == "keep") {
+    return document.trial() != nullptr && document.trial()->is_accepted();
+  }
+  if (command.name == "undo") return document.trial() != nullptr;
+  if (command.name == "deselect" || command.name == "try_operator") {
     return !std::holds_alternative<std::monostate>(document.selection());
   }
   return true;

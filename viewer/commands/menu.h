@@ -2,6 +2,7 @@
 // Commands as menus have them: in few words, and greyed where they would do nothing.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "viewer/commands/commands.h"
@@ -10,6 +11,9 @@ namespace tetmend::viewer {
 
 /// "Open ...", "Step over": without full sentences, and without what is for scripts.
 std::string menu_text(const Command& command);
+
+/// Of what is on or off, which of them it is; nothing of other commands. For ticks.
+std::optional<bool> is_on(const Command& command, const Document& document);
 
 /// False where the command would only complain: without a mesh, a trace, a run, a selection.
 bool is_possible(const Command& command, Document& document);

@@ -89,6 +89,9 @@ std::vector<TetHandle> tets_of(const TetMesh& mesh, const Selection& selection) 
     found.push_back(*t);
   } else if (const auto* e = std::get_if<TetEdge>(&selection)) {
     for (const TetEdge other : shell(mesh, *e)) found.push_back(other.tet());
+  } else if (const auto* f = std::get_if<HalfFace>(&selection)) {
+    found.push_back(f->tet());
+    if (!mesh.twin(*f).is_outside()) found.push_back(mesh.twin(*f).tet());
   } else if (const auto* v = std::get_if<VertexHandle>(&selection)) {
     if (!mesh.tet_of(*v).is_valid()) return found;
     Workspace workspace(mesh);

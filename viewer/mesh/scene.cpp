@@ -89,9 +89,10 @@ class SceneWork {
            : list == kThrough ? scene_.through_tets
                               : scene_.ghost_tets;
   }
-  /// Beyond a cut it is, too, if the settings say so.
+  /// Beyond a cut it is, too, if the settings say so. Red would spoil the colours of a measure.
   bool is_seen_as_bad(TetHandle t) const {
-    return triangles_.is_bad(t) &&
+    const bool is_plain = settings_.colour == "region" || settings_.colour == kDistance;
+    return is_plain && triangles_.is_bad(t) &&
            (settings_.bad_beyond_cuts || (!filter_.is_cut_away(t) && !triangles_.is_cut_away(t)));
   }
   /// 1 if something of the tet is shown; remembered for what changes later.

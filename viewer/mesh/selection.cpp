@@ -128,6 +128,11 @@ class Painter {
     }
     line(ends[0], ends[1], kSupportingEdgeColour, kWide);
   }
+  void paint(HalfFace f) {
+    const auto c = mesh_.vertices(f);
+    face(c[0], c[1], c[2], kSupportingFaceColour);
+    for (unsigned i = 0; i < 3; ++i) line(c[i], c[(i + 1) % 3], kSupportingEdgeColour, 4);
+  }
   void paint(VertexHandle v) {
     if (!mesh_.tet_of(v).is_valid()) return;
     Colour colour = kLinkFaceColour;
@@ -152,6 +157,22 @@ class Painter {
   glm::dvec3 origin_;
   Highlight out_;
 };
+
+/// The face of its tet that the hit lies on.
+HalfFace face_at(const TetMesh& mesh, const Hit& hit) {
+  double nearest = std::numeric_limits<double>::infinity();
+  HalfFace found(hit.tet, 0);
+  for (unsigned f = 0; f < 4; ++f) {
+    const auto c = corners(mesh, HalfFace(hit.tet, f));
+    const glm::dvec3 normal = glm::cross(c[1] - c[0], c[2] - c[0]);
+    const double length = glm::length(normal);
+    if (length == 0) continue;
+    const double away = std::abs(glm::dot(normal, hit.point - c[0])) / length;
+    if (away < nearest) found = HalfFace(hit.tet, f);
+    nearest = std::min(nearest, away);
+  }
+  return found;
+}
 
 std::string angle(double degrees) {
   return fmt::format("{:.2f}°", degrees);
@@ -229,6 +250,19 @@ class Teller {
          std::vector<VertexHandle>(found.ring.begin(), found.ring.begin() + found.degree));
     row("supporting faces", fmt::format("{}", found.degree));
     row("link faces", fmt::format("{}", 2 * found.degree));
+  }
+  void tell(HalfFace f) {
+    const auto c = mesh_.vertices(f);
+    const HalfFace twin = mesh_.twin(f);
+    list("face", c);
+    const glm::dvec3 a = at(mesh_, c[0]);
+    const double area = glm::length(glm::cross(at(mesh_, c[1]) - a, at(mesh_, c[2]) - a)) / 2;
+    const double scale = mesh_.scale().to_file(1.0);
+    row("area", fmt::format("{:.4g}", area * scale * scale));
+    row("kind", twin.is_outside() ? "on the boundary" : "between two tets");
+    std::vector<TetHandle> tets = {f.tet()};
+    if (!twin.is_outside()) tets.push_back(twin.tet());
+    list("tets", tets);
   }
   void link_to_edges(VertexHandle v, const std::vector<VertexHandle>& neighbours) {
     Workspace workspace(mesh_);
@@ -325,6 +359,7 @@ Selection refine(const TetMesh& mesh, const Hit& hit, PickKind kind, const Camer
   constexpr double kEdgeReach = 4;
   // On a small tet most of the face must still mean the tet.
   const double share = std::min(1.0, extent / 80);
+  if (kind == PickKind::face) return face_at(mesh, hit);
   if (kind == PickKind::vertex || (kind == PickKind::nearest && to_vertex < share * kVertexReach)) {
     return mesh.vertices(hit.tet)[vertex];
   }
@@ -340,6 +375,8 @@ Ball ball_around(const TetMesh& mesh, const Selection& selection) {
     for (const TetEdge other : shell(mesh, *e)) {
       for (const glm::dvec3& p : corners(mesh, other.tet())) points.push_back(p);
     }
+  } else if (const auto* f = std::get_if<HalfFace>(&selection)) {
+    for (const glm::dvec3& p : corners(mesh, *f)) points.push_back(p);
   } else if (const auto* v = std::get_if<VertexHandle>(&selection)) {
     points.push_back(at(mesh, *v));
     if (mesh.tet_of(*v).is_valid()) {
@@ -396,6 +433,8 @@ std::vector<NamedVertex> names_of(const TetMesh& mesh, const Selection& selectio
         if (std::none_of(names.begin(), names.end(), same)) names.push_back({v, {}});
       }
     }
+  } else if (const auto* f = std::get_if<HalfFace>(&selection)) {
+    for (const VertexHandle v : mesh.vertices(*f)) names.push_back({v, {}});
   } else if (const auto* v = std::get_if<VertexHandle>(&selection)) {
     names.push_back({*v, "v"});
     if (!mesh.tet_of(*v).is_valid()) return names;

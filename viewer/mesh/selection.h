@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The tet, edge or vertex that the user looks at: found by a ray, drawn as lines and faces, told in
+// The tet, edge, face or vertex that the user looks at: found by a ray, drawn as lines and faces, told in
 // words.
 #pragma once
 
@@ -17,11 +17,11 @@
 
 namespace tetmend::viewer {
 
-/// Nothing, or one of the three.
-using Selection = std::variant<std::monostate, TetHandle, TetEdge, VertexHandle>;
+/// Nothing, or one of the four.
+using Selection = std::variant<std::monostate, TetHandle, TetEdge, HalfFace, VertexHandle>;
 
 /// What a click takes: what is close to the mouse, or always the same kind.
-enum class PickKind { nearest, tet, edge, vertex };
+enum class PickKind { nearest, tet, edge, face, vertex };
 
 struct Hit {
   TetHandle tet;
@@ -35,7 +35,7 @@ std::optional<Hit> cast(const Scene& scene, const Ray& ray);
 /// The first bad tet that the ray meets, of those that are seen through the rest. Cost: likewise.
 std::optional<Hit> cast_through(const Scene& scene, const Ray& ray);
 
-/// The tet of the hit, or its edge or vertex. PickKind::nearest takes a vertex or an edge only when
+/// The tet of the hit, or its edge, face or vertex. PickKind::nearest takes a vertex or an edge only when
 /// the mouse is within a few pixels of it.
 Selection refine(const TetMesh& mesh, const Hit& hit, PickKind kind, const Camera& camera,
                  const Canvas& canvas);
@@ -70,7 +70,7 @@ struct NamedVertex {
   std::string role;
   friend bool operator==(const NamedVertex&, const NamedVertex&) = default;
 };
-/// Of a tet its corners, of an edge its shell, of a vertex it and its neighbours.
+/// Of a tet or a face its corners, of an edge its shell, of a vertex it and its neighbours.
 std::vector<NamedVertex> names_of(const TetMesh& mesh, const Selection& selection);
 
 }  // namespace tetmend::viewer

@@ -166,7 +166,12 @@ void TetTriangles::add_through(TetHandle t, std::vector<SurfaceVertex>& out) con
   for (unsigned f = 0; f < 4; ++f) {
     const HalfFace twin = mesh_.twin(HalfFace(t, f));
     if (!twin.is_outside() && taken_[twin.tet().index()] != 0) continue;  // inside the red
-    add_triangle(out, corners(mesh_, HalfFace(t, f)), colour, in_.ball.centre);
+    const auto c = corners(mesh_, HalfFace(t, f));
+    if (settings_.bad_beyond_cuts) {
+      add_triangle(out, c, colour, in_.ball.centre);
+    } else {  // no splinters out of an exact cut
+      add_cut(to_polygon(c), normal_of(c), colour, exact_.size(), out);
+    }
   }
 }
 

@@ -33,7 +33,7 @@ struct SceneSettings {
   std::string map = "ember";
   std::string measure = "quality";  ///< of the histogram, the filter and the list of the worst
   bool bad = true;                  ///< bad tets in red, seen through the rest
-  bool bad_beyond_cuts = true;      ///< also those that cuts and peeling hide
+  bool bad_beyond_cuts = false;     ///< also those that cuts and peeling hide
   double bad_below = 1;             ///< tets whose angles are of less quality; 1: the goal
   bool filtered = false;            ///< show only tets whose value lies in `range`
   Range range;

@@ -14,6 +14,20 @@ bool entry(const std::string& text, bool is_possible = true) {
   return ImGui::MenuItem(text.c_str(), nullptr, false, is_possible);
 }
 
+/// The operators for a target of so many vertices; a click tries one there.
+void offer_trials(Session& session, const std::vector<VertexHandle>& part) {
+  if (!ImGui::BeginMenu("Try ...")) return;
+  close_by_escape();
+  for (const OperatorInfo* info : session.document.live.registry().operators()) {
+    if (vertices_of(info->target) != part.size()) continue;
+    const std::string name(info->name);
+    if (entry(name))
+      guarded(session.document, [&] { session.document.try_operator({name, part, {}}); });
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", std::string(info->help).c_str());
+  }
+  ImGui::EndMenu();
+}
+
 }  // namespace
 
 void Choices::draw(Session& session) {
@@ -52,7 +66,9 @@ void Choices::offer(Session& session) const {
             is_there)) {
     guarded(document, [&] { document.fly_to(selection); });
   }
-  if (has_trace && entry("History of this " + kind)) {
+  if (is_there) offer_trials(session, part);
+  const bool is_of_run = has_trace && document.trial() == nullptr;
+  if (is_of_run && entry("History of this " + kind)) {
     run_from_window(find_command("history"), session, {as_question(part)});
   }
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "viewer/ui/file_browser.h"
 
+#include <algorithm>
+#include <cctype>
 #include <exception>
 #include <system_error>
 #include <utility>
@@ -40,6 +42,13 @@ std::filesystem::path folder_of(const std::string& file) {
   return folder.empty() ? std::filesystem::path("/") : folder;
 }
 
+/// At once, unless unsaved work would be lost. @throws Error as Document::open().
+void open(Session& session, const std::filesystem::path& file) {
+  const Command& command = find_command("open");
+  if (session.document.has_unsaved()) return run_from_window(command, session, {file.string()});
+  command.run(session, {file.string()});
+}
+
 }  // namespace
 
 void FileBrowser::begin(const Document& document) {
@@ -55,11 +64,55 @@ void FileBrowser::go_to(const std::filesystem::path& folder) {
   try {
     const auto extensions = extensions_of(question_);
     entries_ = list_folder(folder, extensions);
+    marked_.clear();
     folder_ = folder.lexically_normal();
     trouble_.clear();
   } catch (const std::exception& error) {
     trouble_ = error.what();
   }
+}
+
+/// A name is typed for a file that may be new: then nothing is filtered.
+bool FileBrowser::is_listed(const FileEntry& entry) const {
+  if (typed_.empty() || question_ == FileQuestion::save) return true;
+  const auto are_alike = [](char a, char b) {
+    return std::tolower(static_cast<unsigned char>(a)) ==
+           std::tolower(static_cast<unsigned char>(b));
+  };
+  return std::search(entry.name.begin(), entry.name.end(), typed_.begin(), typed_.end(),
+                     are_alike) != entry.name.end();
+}
+
+/// Down or up in what is listed.
+void FileBrowser::mark_next(int step) {
+  std::vector<std::string> names;
+  for (const FileEntry& entry : entries_) {
+    if (is_listed(entry)) names.push_back(entry.name);
+  }
+  if (names.empty()) return;
+  const auto now = std::find(names.begin(), names.end(), marked_);
+  const auto last = static_cast<std::ptrdiff_t>(names.size()) - 1;
+  const std::ptrdiff_t place =
+      now == names.end() ? (step > 0 ? 0 : last)
+                         : std::clamp<std::ptrdiff_t>(now - names.begin() + step, 0, last);
+  marked_ = names[static_cast<std::size_t>(place)];
+  is_moved_ = true;
+}
+
+/// What was typed, if there is such a file or if it is to be made; else the entry that is marked, or
+/// the only one that is listed.
+std::filesystem::path FileBrowser::named() const {
+  std::error_code none;
+  const std::filesystem::path typed = folder_ / typed_;
+  const bool is_there = !typed_.empty() && std::filesystem::exists(typed, none);
+  if (question_ == FileQuestion::save || is_there) return typed;
+  const auto listed = [&](const FileEntry& entry) { return is_listed(entry); };
+  const auto marked = std::find_if(entries_.begin(), entries_.end(), [&](const FileEntry& entry) {
+    return entry.name == marked_ && is_listed(entry);
+  });
+  if (marked != entries_.end()) return folder_ / marked->name;
+  if (typed_.empty() || std::count_if(entries_.begin(), entries_.end(), listed) != 1) return typed;
+  return folder_ / std::find_if(entries_.begin(), entries_.end(), listed)->name;
 }
 
 void FileBrowser::list(float scale) {
@@ -70,14 +123,19 @@ void FileBrowser::list(float scale) {
     next = folder_.parent_path();
   }
   for (const FileEntry& entry : entries_) {
+    if (!is_listed(entry)) continue;
     const std::string shown = entry.is_folder ? entry.name + "/" : entry.name;
     constexpr ImGuiSelectableFlags kFlags =
         ImGuiSelectableFlags_DontClosePopups | ImGuiSelectableFlags_AllowDoubleClick;
-    if (ImGui::Selectable(shown.c_str(), typed_ == entry.name, kFlags)) {
+    const bool is_marked = marked_ == entry.name || typed_ == entry.name;
+    const bool is_clicked = ImGui::Selectable(shown.c_str(), is_marked, kFlags);
+    if (marked_ == entry.name && is_moved_) ImGui::SetScrollHereY();
+    if (is_clicked) {
       if (entry.is_folder) {
         next = folder_ / entry.name;
       } else {
-        typed_ = entry.name;
+        marked_ = entry.name;
+        if (question_ == FileQuestion::save) typed_ = entry.name;
         is_accepted_ = ImGui::IsMouseDoubleClicked(0);
       }
     }
@@ -86,6 +144,7 @@ void FileBrowser::list(float scale) {
     ImGui::SameLine(ImGui::GetContentRegionMax().x - ImGui::CalcTextSize(size.c_str()).x);
     ImGui::TextDisabled("%s", size.c_str());
   }
+  is_moved_ = false;
   ImGui::EndChild();
   if (!next.empty()) go_to(next);
 }
@@ -103,12 +162,12 @@ void FileBrowser::offer_lessons() {
 void FileBrowser::finish(Session& session) {
   wants_focus_ = true;
   try {
-    const std::filesystem::path file = chosen();
+    const std::filesystem::path file = named();
     if (std::error_code none; std::filesystem::is_directory(file, none)) {
       typed_.clear();
       return go_to(file);
     }
-    if (question_ == FileQuestion::open) session.document.open(file);
+    if (question_ == FileQuestion::open) open(session, file);
     if (question_ == FileQuestion::save) session.document.save(file);
     if (question_ == FileQuestion::reference) {
       find_command("reference").run(session, {file.string()});
@@ -118,6 +177,25 @@ void FileBrowser::finish(Session& session) {
     ImGui::CloseCurrentPopup();
   } catch (const std::exception& error) {
     trouble_ = error.what();
+  }
+}
+
+/// The field for the name; the arrows are for the list.
+void FileBrowser::ask_name() {
+  if (std::exchange(wants_focus_, false)) ImGui::SetKeyboardFocusHere();
+  ImGui::SetNextItemWidth(-1);
+  const char* hint =
+      question_ == FileQuestion::save ? "name, or a path" : "a part of a name, or a path";
+  const auto arrow = [](ImGuiInputTextCallbackData* data) {
+    static_cast<FileBrowser*>(data->UserData)
+        ->mark_next(data->EventKey == ImGuiKey_DownArrow ? 1 : -1);
+    return 0;
+  };
+  if (ImGui::InputTextWithHint(
+          "##name", hint, &typed_,
+          ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_CallbackHistory, arrow,
+          this)) {
+    is_accepted_ = true;
   }
 }
 
@@ -138,22 +216,17 @@ void FileBrowser::draw(Session& session, float scale) {
   if (question_ == FileQuestion::open) offer_lessons();
   is_accepted_ = false;
   list(scale);
-  if (std::exchange(wants_focus_, false)) ImGui::SetKeyboardFocusHere();
-  ImGui::SetNextItemWidth(-1);
-  if (ImGui::InputTextWithHint("##name", "name, or a path", &typed_,
-                               ImGuiInputTextFlags_EnterReturnsTrue)) {
-    is_accepted_ = true;
-  }
+  ask_name();
   std::error_code none;
   const bool replaces = question_ == FileQuestion::save && !typed_.empty() &&
-                        std::filesystem::is_regular_file(chosen(), none);
+                        std::filesystem::is_regular_file(named(), none);
   const char* accept = replaces                          ? "Replace the file"
                        : question_ == FileQuestion::save ? "Save"
                                                          : "Open";
   const Answer answer = dialog_buttons(accept, is_accepted_, trouble_);
   if (answer == Answer::cancelled) {
     ImGui::CloseCurrentPopup();
-  } else if (answer == Answer::accepted && !typed_.empty()) {
+  } else if (answer == Answer::accepted && !(typed_.empty() && marked_.empty())) {
     finish(session);
   }
   ImGui::EndPopup();

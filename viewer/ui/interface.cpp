@@ -11,7 +11,6 @@
 #include <imgui.h>
 #include <imgui_internal.h>
 
-#include "explain/lesson_guide.h"
 #include "kernel/error.h"
 #include "kernel/grouped.h"
 #include "viewer/commands/menu.h"
@@ -64,28 +63,6 @@ const char* c_text(std::string_view literal) {
   return literal.data();  // all of them are literals
 }
 
-/// Of a menu. Runs when the layout is complete: it may take a picture.
-struct Choice {
-  const Command* command = nullptr;  // nothing was chosen
-  nlohmann::json arguments = nlohmann::json::array();
-};
-
-/// An entry for each lesson; `entry` draws it and tells whether it was clicked.
-Choice list_lessons(bool (*entry)(const char* title)) {
-  Choice choice;
-  const auto lessons = find_lessons();
-  if (lessons.empty()) ImGui::TextDisabled("there are none here");
-  for (const auto& file : lessons) {
-    try {
-      const Lesson lesson = read_lesson(file);
-      if (entry(lesson.title.c_str())) choice = {&find_command("open"), {lesson.trace.string()}};
-    } catch (const std::exception& error) {
-      ImGui::TextDisabled("%s", error.what());
-    }
-  }
-  return choice;
-}
-
 Choice lessons_menu() {
   if (!ImGui::BeginMenu("Lessons")) return {};
   close_by_escape();
@@ -94,32 +71,28 @@ Choice lessons_menu() {
   return choice;
 }
 
-/// While nothing is open.
-Choice start_page() {
-  const ImVec2 window = ImGui::GetIO().DisplaySize;
-  ImGui::SetNextWindowPos({window.x / 2, window.y / 2}, ImGuiCond_Always, {0.5F, 0.5F});
-  ImGui::Begin("##start", nullptr, kFixed | ImGuiWindowFlags_AlwaysAutoResize);
-  ImGui::TextDisabled("drop a mesh or a trace here, or");
+Choice recent_menu(const Document& document) {
   Choice choice;
-  if (ImGui::Button("Open a file ...")) choice.command = &find_command("open");
-  ImGui::Spacing();
-  ImGui::TextDisabled("lessons: traces with a text that leads through them");
-  Choice lesson = list_lessons([](const char* title) { return ImGui::Button(title); });
-  if (lesson.command != nullptr) choice = std::move(lesson);
-  ImGui::End();
+  if (!ImGui::BeginMenu("Opened lately", !document.recent.empty())) return choice;
+  close_by_escape();
+  for (const std::string& file : document.recent) {
+    if (ImGui::MenuItem(file.c_str())) choice = {&find_command("open"), {file}};
+  }
+  ImGui::EndMenu();
   return choice;
 }
 
 Choice menu(Document& document) {
   Choice choice;
   if (!ImGui::BeginMainMenuBar()) return choice;
-  for (const char* title : {"File", "View", "Show", "Select", "Trace", "Run"}) {
+  for (const char* title : {"File", "View", "Show", "Select", "Trace", "Run", "Help"}) {
     if (!ImGui::BeginMenu(title)) continue;
     close_by_escape();
     const Command& quit = find_command("quit");
     const auto offer = [&](const Command& command) {
-      const bool is_on = is_possible(command, document);
-      if (ImGui::MenuItem(menu_text(command).c_str(), c_text(command.keys), false, is_on)) {
+      if (ImGui::MenuItem(menu_text(command).c_str(), c_text(command.keys),
+                          is_on(command, document).value_or(false),
+                          is_possible(command, document))) {
         choice.command = &command;
       }
       if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", c_text(command.help));
@@ -128,6 +101,8 @@ Choice menu(Document& document) {
       if (command.menu == title && &command != &quit) offer(command);
     }
     if (quit.menu == title) {  // the last
+      Choice again = recent_menu(document);
+      if (again.command != nullptr) choice = std::move(again);
       ImGui::Separator();
       offer(quit);
     }
@@ -218,30 +193,6 @@ void show_status(Session& session, const Area& area, float scale) {
   ImGui::PopStyleVar();
 }
 
-void show_keys(Session& session, float scale) {
-  const ImVec2 window = ImGui::GetIO().DisplaySize;
-  ImGui::SetNextWindowPos({window.x / 2, window.y / 2}, ImGuiCond_Always, {0.5F, 0.5F});
-  ImGui::SetNextWindowSize({std::min(window.x, 900 * scale), std::min(window.y, 640 * scale)});
-  ImGui::Begin("Keys (F1 closes)", &session.document.show_keys,
-               ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoCollapse);
-  if (ImGui::BeginTable("##keys", 2, ImGuiTableFlags_RowBg)) {
-    ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthStretch, 0.45F);
-    const auto row = [](std::string_view keys, std::string_view effect) {
-      ImGui::TableNextRow();
-      ImGui::TableNextColumn();
-      ImGui::TextUnformatted(c_text(keys));
-      ImGui::TableNextColumn();
-      ImGui::TextUnformatted(c_text(effect));
-    };
-    for (const auto& gesture : mouse_gestures()) row(gesture.first, gesture.second);
-    for (const Command& command : commands()) {
-      if (!command.keys.empty()) row(command.keys, command.help);
-    }
-    ImGui::EndTable();
-  }
-  ImGui::End();
-}
-
 /// Words over the picture are as large as those of the panels.
 OverlayLook overlay_look(float scale) {
   OverlayLook look;
@@ -300,6 +251,7 @@ void Interface::apply_theme(const std::string& theme) {
     style.Colors[ImGuiCol_WindowBg] = {0.965F, 0.97F, 0.975F, 1};
     style.Colors[ImGuiCol_FrameBg] = {0.88F, 0.90F, 0.93F, 1};
     style.Colors[ImGuiCol_TextDisabled] = {0.36F, 0.40F, 0.46F, 1};
+    style.Colors[ImGuiCol_CheckMark] = {0.10F, 0.38F, 0.78F, 1};  // links have it, too: 5 to 1
   }
   ImGui::GetStyle() = style;
 }
@@ -326,14 +278,15 @@ void Interface::build(Session& session) {
     if (document.show_panels) {
       choice = menu(document);
       if (!document.has_mesh()) {
-        Choice at_start = start_page();
+        Choice at_start = start_page_.draw(document, scale_);
         if (at_start.command != nullptr) choice = std::move(at_start);
       }
       show_status(session, layout.status, scale_);
     }
-    if (document.show_keys) show_keys(session, scale_);
+    if (document.show_keys) keys_page_.draw(session, scale_);
     browser_.draw(session, scale_);
     place_dialog_.draw(session);
+    unsaved_dialog_.draw(session);
   });
   if (!is_whole) ImGui::ErrorCheckEndFrameRecover(nullptr);
   ImGui::PushFont(font);
@@ -343,7 +296,9 @@ void Interface::build(Session& session) {
     }
     if (document.show_panels) panels_around(session, layout);
     choices_.draw(session);
-    paint(draw_overlay(document, overlay_look(scale_)), *ImGui::GetBackgroundDrawList());
+    OverlayLook look = overlay_look(scale_);
+    look.has_triad = document.show_panels;
+    paint(draw_overlay(document, look), *ImGui::GetBackgroundDrawList());
   });
   if (!is_done) ImGui::ErrorCheckEndFrameRecover(nullptr);
   ImGui::PopFont();

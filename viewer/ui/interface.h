@@ -7,8 +7,11 @@
 #include "viewer/commands/commands.h"
 #include "viewer/ui/choices.h"
 #include "viewer/ui/file_browser.h"
+#include "viewer/ui/keys_page.h"
 #include "viewer/ui/layout.h"
 #include "viewer/ui/place_dialog.h"
+#include "viewer/ui/start_page.h"
+#include "viewer/ui/unsaved_dialog.h"
 
 struct ImFont;
 
@@ -42,6 +45,9 @@ class Interface {
   FileBrowser browser_;
   PlaceDialog place_dialog_;
   Choices choices_;
+  KeysPage keys_page_;
+  StartPage start_page_;
+  UnsavedDialog unsaved_dialog_;
 };
 
 }  // namespace tetmend::viewer::ui

@@ -1,11 +1,25 @@
 // SPDX-License-Identifier: MIT
 // The worst tets by the chosen measure; a click goes there.
+#include <algorithm>
+#include <string>
+
 #include <fmt/format.h>
 #include <imgui.h>
 
 #include "viewer/ui/panels.h"
 
 namespace tetmend::viewer::ui {
+
+namespace {
+
+/// Numbers end in one line.
+void right_aligned(const std::string& text) {
+  const float room = ImGui::GetContentRegionAvail().x - ImGui::CalcTextSize(text.c_str()).x;
+  if (room > 0) ImGui::SetCursorPosX(ImGui::GetCursorPosX() + room);
+  ImGui::TextUnformatted(text.c_str());
+}
+
+}  // namespace
 
 void draw_worst_panel(Session& session) {
   Document& document = session.document;
@@ -14,9 +28,14 @@ void draw_worst_panel(Session& session) {
   const float height = kRows * ImGui::GetTextLineHeightWithSpacing();
   if (!ImGui::BeginTable("##worst", 3, kLooks, {0, height})) return;
   ImGui::TableSetupScrollFreeze(0, 1);
-  ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthStretch, 0.25F);
-  ImGui::TableSetupColumn("tet", ImGuiTableColumnFlags_WidthStretch, 0.35F);
-  ImGui::TableSetupColumn(document.view.scene.measure.c_str());
+  // As wide as the longest number needs.
+  const std::string longest = fmt::format("{}", document.mesh().tet_slots());
+  const float rank = ImGui::CalcTextSize("100 ").x;
+  const float number =
+      std::max(ImGui::CalcTextSize(longest.c_str()).x, ImGui::CalcTextSize("tet").x);
+  ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthFixed, rank);
+  ImGui::TableSetupColumn("tet", ImGuiTableColumnFlags_WidthFixed, number);
+  ImGui::TableSetupColumn(document.view.scene.measure.c_str(), ImGuiTableColumnFlags_WidthStretch);
   ImGui::TableHeadersRow();
   const auto place = document.place_among_worst();
   const auto values = document.values();
@@ -33,9 +52,9 @@ void draw_worst_panel(Session& session) {
       document.hovering = {{v.begin(), v.end()}};
     }
     ImGui::TableNextColumn();
-    ImGui::Text("%u", worst[i].index());
+    right_aligned(fmt::format("{}", worst[i].index()));
     ImGui::TableNextColumn();
-    ImGui::Text("%.5f", static_cast<double>(values[worst[i].index()]));
+    right_aligned(fmt::format("{:.5f}", values[worst[i].index()]));
   }
   ImGui::EndTable();
 }

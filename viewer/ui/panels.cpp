@@ -11,8 +11,9 @@ std::span<const Panel> panels() {
   // Outside of all calls the whole of the run is what there is to see.
   constexpr auto kIsOutside = [](const Document& d) { return d.debugger()->call() == kNoCall; };
   constexpr auto kIsInside = [](const Document& d) { return d.debugger()->call() != kNoCall; };
+  constexpr auto kHasTrial = [](const Document& d) { return d.trial() != nullptr; };
   constexpr auto kHasFound = [](const Document& d) { return d.debugger()->found().has_value(); };
-  static constexpr std::array<Panel, 16> kPanels = {
+  static constexpr std::array<Panel, 17> kPanels = {
       {{"Ledger", left, trace, &draw_ledger_panel, nullptr, kIsOutside},
        {"Calls", left, trace, &draw_calls_panel},
        {"Run to, breakpoints, bookmarks", left, trace, &draw_breakpoints_panel},
@@ -23,6 +24,7 @@ std::span<const Panel> panels() {
        {"Histogram", left, mesh, &draw_histogram_panel},
        {"Display", left, mesh, &draw_display_panel},
        {"Cuts", left, mesh, &draw_cuts_panel},
+       {"Tried here", right, trace, &draw_trial_panel, nullptr, kHasTrial},
        {"Lesson", right, lesson, &draw_lesson_panel},
        {"Step", right, trace, &draw_step_panel},
        {"History", right, trace, &draw_history_panel,

@@ -33,6 +33,8 @@ void draw_worst_panel(Session& session);
 void draw_statistics_panel(Session& session);
 void draw_selection_panel(Session& session);
 void draw_live_panel(Session& session);
+/// The operator that was tried: how it ended, its parameters, keep or undo.
+void draw_trial_panel(Session& session);
 // With a trace; the lesson with one that has a lesson.
 void draw_calls_panel(Session& session);
 void draw_breakpoints_panel(Session& session);

@@ -22,6 +22,7 @@
 #include "viewer/gl/offscreen.h"
 #include "viewer/gl/renderer.h"
 #include "viewer/ui/interface.h"
+#include "viewer/ui/remembered.h"
 
 namespace tetmend::viewer {
 
@@ -84,10 +85,15 @@ class Window : public Host {
   /// Draws only after events. While a run is at work it draws now and then.
   void run(bool fit) {
     fit_first_ = fit && document_.has_mesh();
-    while (glfwWindowShouldClose(window_) == GLFW_FALSE && !document_.quit) {
+    while (!document_.quit) {
+      if (glfwWindowShouldClose(window_) == GLFW_TRUE) {
+        glfwSetWindowShouldClose(window_, GLFW_FALSE);
+        run_from_window(find_command("quit"), session_);
+      }
       deliver_inputs();
       if (document_.quit) break;
       frame();
+      tell_title();
       glfwSwapBuffers(window_);
       if (!inputs_.empty()) continue;
       keep_view();
@@ -166,6 +172,13 @@ class Window : public Host {
     tell_mouse();
     interface_->build(session_);
     interface_->arrange(document_);
+  }
+
+  void tell_title() {
+    std::string title = document_.title();
+    if (title == title_) return;
+    title_ = std::move(title);
+    glfwSetWindowTitle(window_, title_.c_str());
   }
 
   /// Panels take their sizes from the last layout, and dialogs the keys from the one before.
@@ -321,6 +334,7 @@ class Window : public Host {
   std::deque<Input> inputs_;
   glm::dvec2 pointer_{0};             // where the mouse was at the input at hand, in units of GLFW
   std::array<bool, 5> buttons_ = {};  // those of ImGui
+  std::string title_;
   bool fit_first_ = false;
   double played_ = 0;  // when a trace was played up to where it is
   GLFWwindow* window_ = nullptr;
@@ -332,7 +346,9 @@ class Window : public Host {
 
 void run_window(Document& document, float scale, bool fit) {
   const Library library;
+  ui::recall(document);
   Window(document, scale).run(fit);
+  ui::remember(document);
 }
 
 }  // namespace tetmend::viewer

@@ -67,6 +67,40 @@ TEST_CASE("without a file the dialog opens a trace that is typed") {
   CHECK(state["file"].get<std::string>().ends_with("here.trace"));
 }
 
+TEST_CASE("in the dialog for files a part of a name and the arrows are enough") {
+  if (!can_test_window()) return;
+  const HandmadeTrace trace;
+  Viewer viewer("", "1000x700");
+  for (const char* name : {"first.trace", "other.trace", "third.trace"}) {
+    std::filesystem::copy_file(trace.path(), name);
+  }
+  type("key ctrl+o");
+  type("type THE");  // of one alone
+  type("key Return");
+  wait_until_still();
+  type("key ctrl+o");
+  type("type trace");
+  type("key Down key Down key Down key Return");
+  const auto state = viewer.quit();
+  CHECK(state["file"].get<std::string>().ends_with("third.trace"));
+  REQUIRE(state["recent"].size() == 2);
+  CHECK(state["recent"][1].get<std::string>().ends_with("other.trace"));
+}
+
+TEST_CASE("quitting asks where something is unsaved, and Escape stays") {
+  if (!can_test_window()) return;
+  Viewer viewer("sheet.mesh");
+  type("key F6");
+  wait_until_still();
+  type("key ctrl+q");
+  wait_for("tetmend-view.png");
+  type("key Escape key b");
+  const auto state = viewer.quit();
+  CHECK(state["view"]["bad"] == false);  // it went on
+  CHECK(state["unsaved"] == true);
+  CHECK(state["title"] == "* sheet.mesh - tetmend-view");
+}
+
 TEST_CASE("a dialog asks where to go, and says when there is no such place") {
   if (!can_test_window()) return;
   Viewer viewer("sheet.mesh");

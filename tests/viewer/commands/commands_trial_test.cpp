@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: MIT
+#include <doctest/doctest.h>
+
+#include "kernel/error.h"
+#include "kernel/formats/mesh_io.h"
+#include "kernel/mesh_view.h"
+#include "tests/kernel/formats/fixtures.h"
+#include "tests/viewer/session.h"
+#include "viewer/commands/script.h"
+
+using namespace tetmend;
+using namespace tetmend::viewer;
+using nlohmann::json;
+using test::TestSession;
+
+namespace {
+
+/// The mesh that is shown, as a file.
+std::string bytes_of(const Document& document) {
+  const test::TempFolder folder;
+  write_mesh(folder / "now.mesh", MeshView(document.mesh()));
+  return test::read_text(folder / "now.mesh");
+}
+
+/// An accepted removal of an edge of the worst tet of the mesh; "" where there is none.
+bool try_until_accepted(TestSession& s) {
+  const TetMesh mesh = s.document.mesh();
+  for (const TetHandle t : std::vector<TetHandle>(s.document.worst())) {
+    for (unsigned e = 0; e < 6; ++e) {
+      const auto ends = mesh.vertices(TetEdge(t, e));
+      const json result =
+          s.run("try_operator",
+                {{{"operator", "edge_removal"}, {"edge", {ends[0].index(), ends[1].index()}}}});
+      if (result["accepted"] == true) return true;
+      s.run("undo");
+    }
+  }
+  return false;
+}
+
+MeshData sheet() {
+  return read_mesh(TETMEND_SOURCE_DIR "/assets/meshes/sheet.mesh");
+}
+
+}  // namespace
+
+TEST_CASE("an operator that was tried is a call of the debugger, and undo leaves the same bytes") {
+  TestSession s(sheet());
+  const std::string before = bytes_of(s.document);
+  s.run("worst");
+  const json view = to_json(s.document.view);
+  REQUIRE(try_until_accepted(s));
+  const json state = state_of(s.document);
+  CHECK(state["trial"]["operator"] == "edge_removal");
+  CHECK(state["trial"]["worst_after"] > state["trial"]["worst_before"]);
+  CHECK(state["trace"].is_object());
+  REQUIRE(s.document.debugger() != nullptr);
+  CHECK(s.document.debugger()->study() != nullptr);
+  CHECK(s.document.debugger()->study()->picture.has_value());  // the ring
+  CHECK(bytes_of(s.document) != before);
+  CHECK(state["unsaved"] == false);  // not before it is kept
+  s.run("undo");
+  CHECK(bytes_of(s.document) == before);
+  CHECK(s.document.debugger() == nullptr);
+  CHECK(state_of(s.document)["trial"].is_null());
+  CHECK(to_json(s.document.view) == view);
+}
+
+TEST_CASE("what is kept is in the mesh and unsaved until it is written") {
+  TestSession s(sheet());
+  REQUIRE(try_until_accepted(s));
+  const std::string tried = bytes_of(s.document);
+  s.run("keep");
+  CHECK(bytes_of(s.document) == tried);
+  CHECK(s.document.debugger() == nullptr);
+  CHECK(state_of(s.document)["unsaved"] == true);
+  CHECK(s.document.title().starts_with("* "));
+  const test::TempFolder folder;
+  s.run("save", {(folder / "kept.mesh").string()});
+  CHECK(state_of(s.document)["unsaved"] == false);
+  REQUIRE(try_until_accepted(s));  // again, on a mesh that was edited
+  s.run("undo");
+  CHECK(bytes_of(s.document) == tried);
+}
+
+TEST_CASE("other parameters try it again on the mesh as it was") {
+  TestSession s(sheet());
+  const std::string before = bytes_of(s.document);
+  const TetVertices v = s.document.mesh().vertices(s.document.worst().front());
+  const json edge = {v[0].index(), v[1].index()};
+  const auto calls = [&](double level) {
+    return s
+        .run("try_operator", {{{"operator", "recursive_shell_transformation"},
+                               {"edge", edge},
+                               {"set", {{"max_level", level}}}}})["calls"]
+        .get<int>();
+  };
+  const int flat = calls(0);
+  const int deep = calls(5);
+  CHECK(flat >= 1);
+  CHECK(deep >= flat);
+  CHECK(calls(0) == flat);
+  s.run("undo");
+  CHECK(bytes_of(s.document) == before);
+}
+
+TEST_CASE("faces are picked, selected and tried") {
+  TestSession s(sheet());
+  const TetVertices v = s.document.mesh().vertices(TetHandle(0));
+  s.run("select_face", {v[0].index(), v[1].index(), v[2].index()});
+  CHECK(state_of(s.document)["selection"]["kind"] == "face");
+  const json result = s.run("try_operator", {{{"operator", "flip_2_3"}}});
+  CHECK(result["target"].size() == 3);
+  s.run("undo");
+  CHECK(state_of(s.document)["selection"]["kind"] == "face");
+  CHECK_THROWS_WITH_AS(s.run("select_face", {v[0].index(), v[1].index(), v[1].index()}),
+                       doctest::Contains("there is no face"), Error);
+}
+
+TEST_CASE("a trial that cannot be is refused in words, and nothing changes") {
+  TestSession s(sheet());
+  const std::string before = bytes_of(s.document);
+  const auto fails = [&](const json& request, const char* words) {
+    CHECK_THROWS_WITH_AS(s.run("try_operator", {request}), doctest::Contains(words), Error);
+    CHECK(bytes_of(s.document) == before);
+    CHECK(s.document.debugger() == nullptr);
+  };
+  fails({{"operator", "nope"}}, "nope");
+  fails({{"operator", "edge_removal"}}, "is for an edge, which is neither selected nor given");
+  fails({{"operator", "edge_removal"}, {"edge", {0, 1e9}}}, "there is no vertex");
+  fails({{"operator", "edge_removal"}, {"tet", 0}}, "is for an edge");
+  fails({{"operator", "edge_removal"}, {"edge", {0, 1}}, {"set", {{"max_degree", 99}}}},
+        "max_degree");
+  fails({{"operator", "edge_removal"}, {"egde", {0, 1}}}, "'egde' is not known");
+  CHECK_THROWS_WITH_AS(s.run("keep"), doctest::Contains("no operator was tried"), Error);
+  CHECK_THROWS_WITH_AS(s.run("undo"), doctest::Contains("no operator was tried"), Error);
+}
+
+TEST_CASE("what would lose unsaved work waits for an answer in the window, not in a script") {
+  TestSession s(sheet());
+  REQUIRE(try_until_accepted(s));
+  s.run("keep");
+  run_from_window(find_command("quit"), s.session);
+  CHECK_FALSE(s.document.quit);
+  REQUIRE(s.document.waiting);
+  CHECK(s.document.waiting->name == "quit");
+  run_waiting(s.session);
+  CHECK(s.document.quit);
+  s.document.quit = false;
+  const std::string other = TETMEND_SOURCE_DIR "/assets/meshes/two_materials.mesh";
+  run_from_window(find_command("open"), s.session, {other});
+  CHECK(s.document.file() == "test.mesh");
+  s.run("open", {other});
+  CHECK(s.document.file() == other);
+  CHECK(s.document.recent.front() == other);
+  CHECK_FALSE(s.document.has_unsaved());
+}

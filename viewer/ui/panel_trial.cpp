@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: MIT
+// The sandbox: what was tried, how it ended and how near it was; other parameters run it again.
+#include <algorithm>
+#include <optional>
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include "viewer/ui/panels.h"
+#include "viewer/ui/wrapped_text.h"
+
+namespace tetmend::viewer::ui {
+
+namespace {
+
+double value_of(const TrialRequest& request, const ParameterSpec& spec) {
+  for (const auto& [name, value] : request.settings) {
+    if (name == spec.name) return value;
+  }
+  return spec.initial;
+}
+
+/// The new value, once the user has let go of it.
+std::optional<double> edit(const ParameterSpec& spec, double value) {
+  const std::string name(spec.name);
+  if (spec.kind == ParameterSpec::Kind::flag) {
+    bool on = value != 0;
+    if (!ImGui::Checkbox(name.c_str(), &on)) return std::nullopt;
+    return on ? 1 : 0;
+  }
+  if (spec.kind == ParameterSpec::Kind::integer) {
+    int whole = static_cast<int>(value);
+    constexpr int kStep = 1;
+    if (!ImGui::InputInt(name.c_str(), &whole, kStep, kStep,
+                         ImGuiInputTextFlags_EnterReturnsTrue)) {
+      return std::nullopt;
+    }
+    return std::clamp(static_cast<double>(whole), spec.low, spec.high);
+  }
+  if (!ImGui::InputDouble(name.c_str(), &value, 0, 0, "%g", ImGuiInputTextFlags_EnterReturnsTrue)) {
+    return std::nullopt;
+  }
+  return std::clamp(value, spec.low, spec.high);
+}
+
+void try_again(Document& document, TrialRequest request, std::string_view name, double value) {
+  std::erase_if(request.settings, [&](const auto& setting) { return setting.first == name; });
+  request.settings.emplace_back(name, value);
+  guarded(document, [&] { document.try_operator(request); });
+}
+
+void edit_settings(Document& document, const OperatorInfo& info) {
+  const TrialRequest request = document.trial()->request();
+  ImGui::PushItemWidth(0.4F * ImGui::GetContentRegionAvail().x);
+  for (const ParameterSpec& spec : info.parameters) {
+    const auto value = edit(spec, value_of(request, spec));
+    if (ImGui::IsItemHovered()) {
+      ImGui::SetTooltip("%s", fmt::format("{}\n{:g} to {:g}; default {:g}", spec.help, spec.low,
+                                          spec.high, spec.initial)
+                                  .c_str());
+    }
+    if (value) try_again(document, request, spec.name, *value);
+  }
+  ImGui::PopItemWidth();
+}
+
+/// Another operator at the same place.
+void choose_operator(Document& document) {
+  const TrialRequest& request = document.trial()->request();
+  std::string chosen;
+  ImGui::SetNextItemWidth(-1);
+  if (!ImGui::BeginCombo("##operator", request.operator_name.c_str())) return;
+  for (const OperatorInfo* info : document.live.registry().operators()) {
+    if (vertices_of(info->target) != request.target.size()) continue;
+    const std::string name(info->name);
+    if (ImGui::Selectable(name.c_str(), name == request.operator_name)) chosen = name;
+  }
+  ImGui::EndCombo();
+  if (chosen.empty()) return;
+  const TrialRequest next{chosen, request.target, {}};
+  guarded(document, [&] { document.try_operator(next); });
+}
+
+}  // namespace
+
+void draw_trial_panel(Session& session) {
+  Document& document = session.document;
+  choose_operator(document);
+  wrapped_text(document.trial()->outcome());
+  ImGui::TextDisabled("%.2f ms, %u calls", 1000 * document.trial()->seconds(),
+                      document.trial()->call().subtree_end);
+  const OperatorInfo& info =
+      document.live.registry().find(document.trial()->request().operator_name);
+  edit_settings(document, info);
+  const Command& keep = find_command("keep");
+  const Command& undo = find_command("undo");
+  if (document.trial()->is_accepted()) {
+    if (ImGui::Button("Keep")) return run_from_window(keep, session);
+    ImGui::SameLine();
+  }
+  if (ImGui::Button("Undo")) run_from_window(undo, session);
+}
+
+}  // namespace tetmend::viewer::ui
