@@ -42,10 +42,9 @@ class View {
  public:
   View() = default;
   View(const T* data, std::size_t size) : data_(data), size_(size) {}
+  /// Of a vector or an array, wherever one is wanted.
   template <class Container, class = decltype(std::declval<const Container&>().data())>
-  View(const Container&
-           container)  // NOLINT(google-explicit-constructor): a view of a vector is meant
-      : data_(container.data()), size_(container.size()) {}
+  View(const Container& all) : data_(all.data()), size_(all.size()) {}  // NOLINT(*-explicit-*)
   const T* data() const noexcept { return data_; }
   std::size_t size() const noexcept { return size_; }
 
