@@ -77,8 +77,9 @@ class CavityInsertion final : public OperatorOf<InsertionState> {
   }
 
  protected:
-  Verdict precondition(const OperatorContext& context, Target target,
-                       InsertionState& state) const override {
+  using State = InsertionState;
+
+  Verdict precondition(const OperatorContext& context, Target target, State& state) const override {
     const TetMesh& mesh = context.mesh;
     if (kInside && has_no_room(context)) return Verdict::no_improvement;
     if (mesh.is_frozen(target.tet())) return Verdict::constrained;
@@ -88,7 +89,7 @@ class CavityInsertion final : public OperatorOf<InsertionState> {
     return state.sites.empty() ? Verdict::constrained : Verdict::accepted;
   }
 
-  Verdict evaluate(OperatorContext& context, Target target, InsertionState& state) const override {
+  Verdict evaluate(OperatorContext& context, Target target, State& state) const override {
     VertexCavity& cavity = state.cavity;
     auto& choices = state.choices;
     choices.clear();
@@ -120,14 +121,14 @@ class CavityInsertion final : public OperatorOf<InsertionState> {
   }
 
   Verdict apply(OperatorContext& context, Target target, Transaction& transaction,
-                InsertionState& state) const override {
+                State& state) const override {
     const Site& site = state.choices[state.next].site;
     begin(target, 0, site, state.cavity);
     const Verdict verdict = state.cavity.offer(context.mesh, context.workspace, site.point);
     return verdict == Verdict::accepted ? insert(context, transaction, state) : verdict;
   }
 
-  bool propose_next(OperatorContext&, Target, InsertionState& state) const override {
+  bool propose_next(OperatorContext&, Target, State& state) const override {
     return ++state.next < state.choices.size();
   }
 
@@ -183,7 +184,7 @@ class CavityInsertion final : public OperatorOf<InsertionState> {
   }
 
   /// Moves the vertex to the best place in its cavity, and looks for a better cavity there.
-  Verdict settle(OperatorContext& context, const Site& site, InsertionState& state) const {
+  Verdict settle(OperatorContext& context, const Site& site, State& state) const {
     VertexCavity& cavity = state.cavity;
     load_ball(context.mesh, cavity.faces(), state.ball);
     Point point = cavity.point();
@@ -195,7 +196,7 @@ class CavityInsertion final : public OperatorOf<InsertionState> {
   }
 
   /// Makes the cavity and the vertex real.
-  Verdict insert(OperatorContext& context, Transaction& transaction, InsertionState& state) const {
+  Verdict insert(OperatorContext& context, Transaction& transaction, State& state) const {
     const TetMesh& mesh = context.mesh;
     const VertexCavity& cavity = state.cavity;
     if (kInside && context.workspace.mesh_may_overlap() && !is_sphere(mesh, cavity.faces())) {

@@ -46,12 +46,12 @@ struct ContractionState {
 };
 
 /// Target: a vertex. Tries to merge it into each neighbour, takes the neighbour with the best
-/// quality vector, and smooths that neighbour unless it is fixed ([chen, 6.3]). Inside refuses fixed
-/// vertices; at the surface merges a vertex of a patch into a neighbour on the surface, one of a
-/// feature line into a neighbour on that line, and tries several neighbours. Under a judge of
+/// quality vector, and smooths that neighbour unless it is fixed ([chen, 6.3]). Inside refuses
+/// fixed vertices; at the surface merges a vertex of a patch into a neighbour on the surface, one
+/// of a feature line into a neighbour on that line, and tries several neighbours. Under a judge of
 /// lengths the neighbours are those that are too near, and stay where they are. Else a neighbour
-/// that may move must promise a share of the worst quality of the ball, the `least_ratio`, before it
-/// is smoothed. Cost: linear in ball size times neighbours.
+/// that may move must promise a share of the worst quality of the ball, the `least_ratio`, before
+/// it is smoothed. Cost: linear in ball size times neighbours.
 template <Where where>
 class EdgeContraction final : public OperatorOf<ContractionState> {
  public:
@@ -63,13 +63,13 @@ class EdgeContraction final : public OperatorOf<ContractionState> {
   }
 
  protected:
-  Verdict precondition(const OperatorContext& context, Target target,
-                       ContractionState&) const override {
+  using State = ContractionState;
+
+  Verdict precondition(const OperatorContext& context, Target target, State&) const override {
     return check_vertex(context.mesh, target.vertex(), where);
   }
 
-  Verdict evaluate(OperatorContext& context, Target target,
-                   ContractionState& state) const override {
+  Verdict evaluate(OperatorContext& context, Target target, State& state) const override {
     const TetMesh& mesh = context.mesh;
     const VertexHandle v = target.vertex();
     const StarKind kind = find_star(mesh, v, context.workspace, state.ball.link);
@@ -104,7 +104,7 @@ class EdgeContraction final : public OperatorOf<ContractionState> {
   }
 
   Verdict apply(OperatorContext& context, Target target, Transaction& transaction,
-                ContractionState& state) const override {
+                State& state) const override {
     const TetMesh& mesh = context.mesh;
     auto& link = state.ball.link;
     const VertexHandle w = state.candidates[state.next].kept;
@@ -129,7 +129,7 @@ class EdgeContraction final : public OperatorOf<ContractionState> {
     return Verdict::accepted;
   }
 
-  bool propose_next(OperatorContext&, Target, ContractionState& state) const override {
+  bool propose_next(OperatorContext&, Target, State& state) const override {
     return ++state.next < std::min(state.count, tries_);
   }
 
@@ -137,8 +137,7 @@ class EdgeContraction final : public OperatorOf<ContractionState> {
   static constexpr bool kInside = where == Where::inside;
 
   /// The neighbour with which the mean of the mean ratios rises most, of the nearest.
-  Verdict find_roundest(const OperatorContext& context, VertexHandle v,
-                        ContractionState& state) const {
+  Verdict find_roundest(const OperatorContext& context, VertexHandle v, State& state) const {
     constexpr std::size_t kNearest = 5;
     const TetMesh& mesh = context.mesh;
     const Point& place = mesh.point(v);
@@ -177,8 +176,7 @@ class EdgeContraction final : public OperatorOf<ContractionState> {
 
   /// The best neighbour, by its quality vector, of the nearest that are too near; no new edge may miss
   /// the wanted lengths by as much as the one that goes.
-  static Verdict find_near(const TetMesh& mesh, VertexHandle v, double least,
-                           ContractionState& state) {
+  static Verdict find_near(const TetMesh& mesh, VertexHandle v, double least, State& state) {
     constexpr std::size_t kNearest = 5;
     const WantedLengths& wanted = *mesh.size_field()->wanted();
     const Point& place = mesh.point(v);
@@ -206,7 +204,7 @@ class EdgeContraction final : public OperatorOf<ContractionState> {
     return mean_ratio(point, mesh.point(a), mesh.point(b), mesh.point(c));
   }
 
-  static void list_neighbours(const TetMesh& mesh, ContractionState& state) {
+  static void list_neighbours(const TetMesh& mesh, State& state) {
     state.set.clear();
     state.neighbours.clear();
     for (const HalfFace f : state.ball.link) {
@@ -217,8 +215,7 @@ class EdgeContraction final : public OperatorOf<ContractionState> {
   }
 
   /// Of a vertex of a patch those along the surface, of one of a line those along the line.
-  static void list_neighbours_on_surface(const TetMesh& mesh, VertexHandle v,
-                                         ContractionState& state) {
+  static void list_neighbours_on_surface(const TetMesh& mesh, VertexHandle v, State& state) {
     const SurfaceGuard& guard = *mesh.surface_guard();
     const bool on_line = guard.place(v) == SurfacePlace::ridge;
     state.set.clear();
@@ -245,14 +242,14 @@ class EdgeContraction final : public OperatorOf<ContractionState> {
   }
 
   /// The place for one more candidate.
-  static Candidate& next_candidate(ContractionState& state) {
+  static Candidate& next_candidate(State& state) {
     if (state.count == state.candidates.size()) state.candidates.emplace_back();
     return state.candidates[state.count];
   }
 
   /// Makes a neighbour a candidate if contract() finds it good enough. Inside, only the best stays
   /// one.
-  static void consider(const TetMesh& mesh, VertexHandle w, double least, ContractionState& state) {
+  static void consider(const TetMesh& mesh, VertexHandle w, double least, State& state) {
     Candidate& candidate = next_candidate(state);
     candidate.kept = w;
     if (!contract(mesh, w, std::max(least, 0.0), state.ball, candidate.qualities)) return;

@@ -35,13 +35,13 @@ struct SplitState {
 };
 
 /// Target: an edge. Puts a vertex at its midpoint, splits the tets of its shell and moves the
-/// vertex to where the worst new tet is best ([chen, 6.3]): inside in any direction, at the surface
-/// along that or, from a feature edge, along its line. Under a judge of lengths a vertex inside
-/// stays in the middle, by wanted lengths, if no tet is too bad there. With `relax`, the tets around
-/// the new vertex are then reconnected and its neighbours smoothed before the outcome is judged.
-/// Refuses edges of the other kind, and splits that pay for a better worst tet with many new bad
-/// ones, so that the mesh does not grow for nothing. Cost: the smoothing of one vertex, with `relax`
-/// of about 30 and of their shells.
+/// vertex to where the worst new tet is best ([chen, 6.3]): inside in any direction, at the
+/// surface along that or, from a feature edge, along its line. Under a judge of lengths a vertex
+/// inside stays in the middle, by wanted lengths, if no tet is too bad there. With `relax`, the
+/// tets around the new vertex are then reconnected and its neighbours smoothed before the outcome
+/// is judged. Refuses edges of the other kind, and splits that pay for a better worst tet with
+/// many new bad ones, so that the mesh does not grow for nothing. Cost: the smoothing of one
+/// vertex, with `relax` of about 30 and of their shells.
 template <Where where>
 class EdgeSplit final : public OperatorOf<SplitState> {
  public:
@@ -55,8 +55,9 @@ class EdgeSplit final : public OperatorOf<SplitState> {
   }
 
  protected:
-  Verdict precondition(const OperatorContext& context, Target target,
-                       SplitState& state) const override {
+  using State = SplitState;
+
+  Verdict precondition(const OperatorContext& context, Target target, State& state) const override {
     const Verdict verdict = list_tets(context, target.edge(), state);
     if (verdict != Verdict::accepted) return verdict;
     if (where == Where::inside && has_no_room(context)) return Verdict::no_improvement;
@@ -64,7 +65,7 @@ class EdgeSplit final : public OperatorOf<SplitState> {
   }
 
   /// Places the vertex before it exists: the ball of the new vertex is the shell.
-  Verdict evaluate(OperatorContext& context, Target, SplitState& state) const override {
+  Verdict evaluate(OperatorContext& context, Target, State& state) const override {
     const TetMesh& mesh = context.mesh;
     Quality worst = mesh.quality(state.tets[0].tet);
     for (const TetAtEdge& at : state.tets) worst = std::min(worst, mesh.quality(at.tet));
@@ -95,7 +96,7 @@ class EdgeSplit final : public OperatorOf<SplitState> {
   }
 
   Verdict apply(OperatorContext& context, Target, Transaction& transaction,
-                SplitState& state) const override {
+                State& state) const override {
     const VertexHandle v = transaction.add_vertex(state.point);
     if (!v.is_valid()) return Verdict::deferred;
     state.replacement.clear();
@@ -116,7 +117,7 @@ class EdgeSplit final : public OperatorOf<SplitState> {
   }
 
  private:
-  static Verdict list_tets(const OperatorContext& context, TetEdge edge, SplitState& state) {
+  static Verdict list_tets(const OperatorContext& context, TetEdge edge, State& state) {
     state.tets.clear();
     if constexpr (where == Where::inside) {
       Shell& shell = state.shell;
@@ -144,7 +145,7 @@ class EdgeSplit final : public OperatorOf<SplitState> {
 
   /// Only looks how good the tets can become: a new vertex starts in the middle, where the guard of
   /// the surface knows its place, and climbs from there.
-  Verdict place_along_surface(const TetMesh& mesh, double least, SplitState& state) const {
+  Verdict place_along_surface(const TetMesh& mesh, double least, State& state) const {
     const OnLineOrPlane restriction = restrict(mesh, state.surface_shell, state.point);
     state.ball.restrict_to(restriction);
     Point place = state.point;
@@ -169,7 +170,7 @@ class EdgeSplit final : public OperatorOf<SplitState> {
 
   /// Wherever the new vertex goes, the two tets at a ring edge share the angle that the old tet,
   /// which is positive, has there: one of them has half of it at most.
-  static bool is_hopeless(const TetMesh& mesh, const SplitState& state, double least) {
+  static bool is_hopeless(const TetMesh& mesh, const State& state, double least) {
     constexpr double kRounding = 1e-6;  // far more than there is
     const Point& a = mesh.point(state.a);
     const Point& b = mesh.point(state.b);

@@ -42,8 +42,9 @@ class JointSmoothing final : public OperatorOf<JointSmoothingState> {
   }
 
  protected:
-  Verdict precondition(const OperatorContext& context, Target target,
-                       JointSmoothingState&) const override {
+  using State = JointSmoothingState;
+
+  Verdict precondition(const OperatorContext& context, Target target, State&) const override {
     const TetMesh& mesh = context.mesh;
     const TetVertices& corners = mesh.vertices(target.tet());
     const bool all_fixed = std::all_of(corners.begin(), corners.end(),
@@ -51,8 +52,7 @@ class JointSmoothing final : public OperatorOf<JointSmoothingState> {
     return all_fixed ? Verdict::constrained : Verdict::accepted;
   }
 
-  Verdict evaluate(OperatorContext& context, Target target,
-                   JointSmoothingState& state) const override {
+  Verdict evaluate(OperatorContext& context, Target target, State& state) const override {
     std::size_t number = 0;
     const Verdict verdict = load_patch(context, target.tet(), number, state);
     if (verdict != Verdict::accepted) return verdict;
@@ -66,8 +66,7 @@ class JointSmoothing final : public OperatorOf<JointSmoothingState> {
     return patch.total_deficit() < deficit_limit ? Verdict::accepted : Verdict::no_improvement;
   }
 
-  Verdict apply(OperatorContext&, Target, Transaction& transaction,
-                JointSmoothingState& state) const override {
+  Verdict apply(OperatorContext&, Target, Transaction& transaction, State& state) const override {
     for (std::size_t v = 0; v < state.moves.size(); ++v) {
       state.moves[v].point = state.patch.point(v);
     }
@@ -86,7 +85,7 @@ class JointSmoothing final : public OperatorOf<JointSmoothingState> {
   /// Puts the free vertices and their links into the moves, and the tets around them into the
   /// patch, where t has the given number then.
   Verdict load_patch(OperatorContext& context, TetHandle t, std::size_t& number,
-                     JointSmoothingState& state) const {
+                     State& state) const {
     const TetMesh& mesh = context.mesh;
     auto& free = state.free;
     free.clear();
@@ -114,7 +113,7 @@ class JointSmoothing final : public OperatorOf<JointSmoothingState> {
   }
 
   static Verdict load_tets(OperatorContext& context, TetHandle t, std::size_t& t_number,
-                           JointSmoothingState& state) {
+                           State& state) {
     const TetMesh& mesh = context.mesh;
     const auto& free = state.free;
     const auto number = [&](VertexHandle v) {

@@ -25,13 +25,13 @@ class MeanSmoothing final : public OperatorOf<MeanSmoothingState> {
         steps_(values.integer("steps")) {}
 
  protected:
-  Verdict precondition(const OperatorContext& context, Target target,
-                       MeanSmoothingState&) const override {
+  using State = MeanSmoothingState;
+
+  Verdict precondition(const OperatorContext& context, Target target, State&) const override {
     return check_vertex(context.mesh, target.vertex(), Where::inside);
   }
 
-  Verdict evaluate(OperatorContext& context, Target target,
-                   MeanSmoothingState& state) const override {
+  Verdict evaluate(OperatorContext& context, Target target, State& state) const override {
     const TetMesh& mesh = context.mesh;
     const VertexHandle v = target.vertex();
     const StarKind kind = find_star(mesh, v, context.workspace, state.link);
@@ -50,13 +50,13 @@ class MeanSmoothing final : public OperatorOf<MeanSmoothingState> {
   }
 
   Verdict apply(OperatorContext& context, Target target, Transaction& transaction,
-                MeanSmoothingState& state) const override {
+                State& state) const override {
     const Point goal = context.mesh.point(target.vertex()) + state.share * state.way;
     return to_verdict(transaction.move_vertex(target.vertex(), goal, state.link));
   }
 
   /// Closer to where it was: a tet may have fallen below the goal on the way.
-  bool propose_next(OperatorContext&, Target, MeanSmoothingState& state) const override {
+  bool propose_next(OperatorContext&, Target, State& state) const override {
     constexpr double kLeastShare = 0.25;
     state.share /= 2;
     return state.share >= kLeastShare;

@@ -52,13 +52,13 @@ class PolyhedronReconnection final : public OperatorOf<ReconnectionState> {
         max_nodes_(static_cast<unsigned>(values.integer("max_nodes"))) {}
 
  protected:
-  Verdict precondition(const OperatorContext& context, Target target,
-                       ReconnectionState&) const override {
+  using State = ReconnectionState;
+
+  Verdict precondition(const OperatorContext& context, Target target, State&) const override {
     return context.mesh.is_frozen(target.tet()) ? Verdict::constrained : Verdict::accepted;
   }
 
-  Verdict evaluate(OperatorContext& context, Target target,
-                   ReconnectionState& state) const override {
+  Verdict evaluate(OperatorContext& context, Target target, State& state) const override {
     auto& [polyhedron, search, replacement] = state.refilling;
     polyhedron.start(context.mesh, target.tet());
     while (grow(context, state)) {
@@ -73,7 +73,7 @@ class PolyhedronReconnection final : public OperatorOf<ReconnectionState> {
 
   /// Fills the polyhedron as it is now.
   Verdict apply(OperatorContext& context, Target, Transaction& transaction,
-                ReconnectionState& state) const override {
+                State& state) const override {
     const TetMesh& mesh = context.mesh;
     auto& [polyhedron, search, replacement] = state.refilling;
     VertexHandle added;
@@ -92,14 +92,14 @@ class PolyhedronReconnection final : public OperatorOf<ReconnectionState> {
     return verdict;
   }
 
-  bool propose_next(OperatorContext& context, Target, ReconnectionState& state) const override {
+  bool propose_next(OperatorContext& context, Target, State& state) const override {
     int grown = 0;
     while (grown < step_ && grow(context, state)) ++grown;
     return grown > 0;
   }
 
  private:
-  bool grow(OperatorContext& context, ReconnectionState& state) const {
+  bool grow(OperatorContext& context, State& state) const {
     return state.refilling.polyhedron.grow(context.mesh, context.workspace, max_vertices_);
   }
 
@@ -135,7 +135,7 @@ class PolyhedronReconnection final : public OperatorOf<ReconnectionState> {
   }
 
   void smooth(OperatorContext& context, Transaction& transaction, VertexHandle added,
-              ReconnectionState& state) const {
+              State& state) const {
     for (int round = 0; round < rounds_; ++round) {
       if (added.is_valid()) climb(context, transaction, added, limits_, state.ball);
       for (const VertexHandle v : state.refilling.polyhedron.vertices()) {

@@ -17,12 +17,12 @@ struct SmoothingState {
   unsigned halves = 0;  // so often the way was halved
 };
 
-/// Target: a vertex. Inside moves it to the mean of its neighbours if that improves its ball. If bad
-/// tets remain, climbs from there to where the worst tet of the ball is best ([chen, 6.2];
-/// [freitag_ollivier_gooch]). At the surface only climbs, a vertex of a patch in its tangent plane,
-/// one of a feature line along it; each place is pulled back to the nearest of the patch or line.
-/// Where the guard of the surface refuses, half of the way is tried. Refuses vertices of the other
-/// kind.
+/// Target: a vertex. Inside moves it to the mean of its neighbours if that improves its ball. If
+/// bad tets remain, climbs from there to where the worst tet of the ball is best ([chen, 6.2];
+/// [freitag_ollivier_gooch]). At the surface only climbs, a vertex of a patch in its tangent
+/// plane, one of a feature line along it; each place is pulled back to the nearest of the patch or
+/// line. Where the guard of the surface refuses, half of the way is tried. Refuses vertices of the
+/// other kind.
 template <Where where>
 class Smoothing final : public OperatorOf<SmoothingState> {
  public:
@@ -38,12 +38,13 @@ class Smoothing final : public OperatorOf<SmoothingState> {
   }
 
  protected:
-  Verdict precondition(const OperatorContext& context, Target target,
-                       SmoothingState&) const override {
+  using State = SmoothingState;
+
+  Verdict precondition(const OperatorContext& context, Target target, State&) const override {
     return check_vertex(context.mesh, target.vertex(), where);
   }
 
-  Verdict evaluate(OperatorContext& context, Target target, SmoothingState& state) const override {
+  Verdict evaluate(OperatorContext& context, Target target, State& state) const override {
     const TetMesh& mesh = context.mesh;
     auto& [ball, link, point] = state.ball;
     const VertexHandle v = target.vertex();
@@ -63,13 +64,13 @@ class Smoothing final : public OperatorOf<SmoothingState> {
   }
 
   Verdict apply(OperatorContext&, Target target, Transaction& transaction,
-                SmoothingState& state) const override {
+                State& state) const override {
     const VertexMove move = {target.vertex(), state.ball.point, state.ball.link};
     return to_verdict(kInside ? transaction.move_vertex(move.vertex, move.point, move.link)
                               : transaction.move_at_surface({&move, 1}));
   }
 
-  bool propose_next(OperatorContext& context, Target target, SmoothingState& state) const override {
+  bool propose_next(OperatorContext& context, Target target, State& state) const override {
     if (kInside || state.halves++ == most_halves_) return false;
     const TetMesh& mesh = context.mesh;
     const VertexHandle v = target.vertex();
@@ -83,8 +84,7 @@ class Smoothing final : public OperatorOf<SmoothingState> {
   static constexpr bool kInside = where == Where::inside;
 
   /// Moves the point of the ball, and answers the quality of the worst tet there.
-  double find_place(const TetMesh& mesh, VertexHandle v, double start,
-                    SmoothingState& state) const {
+  double find_place(const TetMesh& mesh, VertexHandle v, double start, State& state) const {
     auto& [ball, link, point] = state.ball;
     if constexpr (!kInside) {
       const OnSurface restriction(*mesh.surface_guard(), v);
@@ -105,7 +105,7 @@ class Smoothing final : public OperatorOf<SmoothingState> {
     return ball.optimise_from(point, reached, limits_);
   }
 
-  static Point mean_of_neighbours(const TetMesh& mesh, SmoothingState& state) {
+  static Point mean_of_neighbours(const TetMesh& mesh, State& state) {
     Point sum = Point::Zero();
     state.neighbours.clear();
     for (const HalfFace f : state.ball.link) {

@@ -31,8 +31,9 @@ class SurfaceEdgeRemoval final : public OperatorOf<SurfaceRemovalState> {
   explicit SurfaceEdgeRemoval(const ParameterValues&) : OperatorOf(surface_edge_removal_info()) {}
 
  protected:
-  Verdict precondition(const OperatorContext& context, Target target,
-                       SurfaceRemovalState& state) const override {
+  using State = SurfaceRemovalState;
+
+  Verdict precondition(const OperatorContext& context, Target target, State& state) const override {
     const TetMesh& mesh = context.mesh;
     const auto [a, b] = mesh.vertices(target.edge());
     const Verdict verdict = find_surface_edge(context, target.edge(), state.shell);
@@ -47,7 +48,7 @@ class SurfaceEdgeRemoval final : public OperatorOf<SurfaceRemovalState> {
     return Verdict::accepted;
   }
 
-  Verdict evaluate(OperatorContext& context, Target, SurfaceRemovalState& state) const override {
+  Verdict evaluate(OperatorContext& context, Target, State& state) const override {
     const TetMesh& mesh = context.mesh;
     const SurfaceShell& shell = state.shell;
     state.replacement.clear();
@@ -64,15 +65,13 @@ class SurfaceEdgeRemoval final : public OperatorOf<SurfaceRemovalState> {
     return Verdict::accepted;
   }
 
-  Verdict apply(OperatorContext&, Target, Transaction& transaction,
-                SurfaceRemovalState& state) const override {
+  Verdict apply(OperatorContext&, Target, Transaction& transaction, State& state) const override {
     return state.replacement.make(transaction, Where::at_surface);
   }
 
  private:
   /// The best covering of a side, as new tets; false if there is none above the floor.
-  static bool cover(const TetMesh& mesh, const ShellSide& side, Quality floor,
-                    SurfaceRemovalState& state) {
+  static bool cover(const TetMesh& mesh, const ShellSide& side, Quality floor, State& state) {
     const unsigned m = side.count + 1;
     std::array<Point, kMaxSearchRing> ring;
     std::array<Quality, kMaxSearchRing> none{};  // of the core, which there is not

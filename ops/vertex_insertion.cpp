@@ -144,11 +144,31 @@ Verdict trim_cavity(const TetMesh& mesh, VertexInsertionState& state) {
   return Verdict::accepted;
 }
 
-/// Target: a tet. Inserts a vertex at a place that the derived class names, as in Delaunay
-/// refinement ([chen, 2.3]). It replaces the tets around whose circumspheres hold the vertex,
-/// except where the vertex would not see the faces behind them. The cavity crosses no constrained
-/// face and holds `max_tets` at most. With `smooth`, the vertex then moves to where the worst new
-/// tet is best.
+/// The 1-4 flip, if `max_tets` is 1: it seldom improves anything, for it divides each angle of the
+/// tet.
+Point centroid(const TetMesh& mesh, TetHandle t) {
+  Point sum = Point::Zero();
+  for (const VertexHandle v : mesh.vertices(t)) sum += mesh.point(v);
+  return sum / 4;
+}
+
+/// The step of Delaunay refinement. Often in another tet, and outside the mesh for flat tets at the
+/// boundary: then the verdict is `constrained`.
+Point circumcentre(const TetMesh& mesh, TetHandle t) {
+  const auto& v = mesh.vertices(t);
+  const Point& origin = mesh.point(v[0]);
+  const Point a = mesh.point(v[1]) - origin;
+  const Point b = mesh.point(v[2]) - origin;
+  const Point c = mesh.point(v[3]) - origin;
+  const Point sum =
+      a.squaredNorm() * b.cross(c) + b.squaredNorm() * c.cross(a) + c.squaredNorm() * a.cross(b);
+  return origin + sum / (2 * a.dot(b.cross(c)));
+}
+
+/// Target: a tet. Inserts a vertex at a place for it, as in Delaunay refinement ([chen, 2.3]). It
+/// replaces the tets around whose circumspheres hold the vertex, except where the vertex would not
+/// see the faces behind them. The cavity crosses no constrained face and holds `max_tets` at most.
+/// With `smooth`, the vertex then moves to where the worst new tet is best.
 ///
 /// Refuses as `not_applicable` a target that is not certified positive, or whose vertex lies more
 /// than 64 tets away. Refuses as `constrained` when boundary or a constrained face parts the target
@@ -156,135 +176,88 @@ Verdict trim_cavity(const TetMesh& mesh, VertexInsertionState& state) {
 /// when the target would stay, or when the worst tet would be no better, or only at the price of
 /// many new bad tets (as edge_split). Cost: the way to the vertex, the square of the size of the
 /// cavity at worst, and the smoothing of one vertex.
-class VertexInsertion : public OperatorOf<VertexInsertionState> {
+/// @tparam place where the vertex goes, of a tet that is certified positive
+template <const OperatorInfo& (*description)(), Point (*place)(const TetMesh&, TetHandle)>
+class VertexInsertion final : public OperatorOf<VertexInsertionState> {
  public:
-  VertexInsertion(const OperatorInfo& info, const ParameterValues& values);
+  explicit VertexInsertion(const ParameterValues& values)
+      : OperatorOf(description(), Judge::fair({.desperate = values.real("desperate")})),
+        max_tets_(static_cast<std::size_t>(values.integer("max_tets"))),
+        smooth_(values.flag("smooth")) {}
 
  protected:
-  /// Where the vertex goes. The tet is certified positive.
-  virtual Point place(const TetMesh& mesh, TetHandle t) const = 0;
+  using State = VertexInsertionState;
 
-  Verdict precondition(const OperatorContext& context, Target target,
-                       VertexInsertionState& state) const final;
-  Verdict evaluate(OperatorContext& context, Target target,
-                   VertexInsertionState& state) const final;
-  Verdict apply(OperatorContext& context, Target target, Transaction& transaction,
-                VertexInsertionState& state) const final;
+  Verdict precondition(const OperatorContext& context, Target target, State&) const override {
+    const TetMesh& mesh = context.mesh;
+    if (has_no_room(context)) return Verdict::no_improvement;
+    return mesh.is_certified_positive(mesh.vertices(target.tet())) ? Verdict::accepted
+                                                                   : Verdict::not_applicable;
+  }
+
+  Verdict evaluate(OperatorContext& context, Target target, State& state) const override {
+    const TetMesh& mesh = context.mesh;
+    auto& [ball, link, point] = state.ball;
+    const auto& cavity = state.replacement.old_tets;
+    point = place(mesh, target.tet());
+    Verdict verdict = locate_point(context, target.tet(), state);
+    if (verdict == Verdict::accepted) verdict = grow_cavity(context, max_tets_, state);
+    if (verdict == Verdict::accepted) verdict = trim_cavity(mesh, state);
+    if (verdict != Verdict::accepted) return verdict;
+    if (std::find(cavity.begin(), cavity.end(), target.tet()) == cavity.end()) {
+      return Verdict::no_improvement;
+    }
+    const Judge& judge = *context.judge;
+    if (judge.looks_at_mean() && !raises_mean(mesh, judge.usual(), state)) {
+      return Verdict::no_improvement;
+    }
+    if (!is_sphere(mesh, link)) return Verdict::inverted;
+    if (judge.looks_at_mean()) return Verdict::accepted;
+    load_ball(mesh, link, ball);
+    const double reached = smooth_ ? ball.optimise(point, limits_) : ball.worst(point);
+    return reached > context.judge->floor(worst_quality(mesh, cavity)) ? Verdict::accepted
+                                                                       : Verdict::no_improvement;
+  }
+
+  Verdict apply(OperatorContext& context, Target, Transaction& transaction,
+                State& state) const override {
+    const VertexHandle v = transaction.add_vertex(state.ball.point);
+    if (!v.is_valid()) return Verdict::deferred;
+    state.replacement.new_tets.clear();
+    for (const HalfFace f : state.ball.link) {
+      const auto [a, b, c] = context.mesh.vertices(f);
+      state.replacement.new_tets.push_back({v, a, b, c});
+    }
+    return state.replacement.make(transaction);
+  }
 
  private:
   /// Moves the vertex to where the new tets are round on average. False if their mean ratios, each less
   /// the usual one, have no larger sum than those of the cavity.
-  static bool raises_mean(const TetMesh& mesh, double usual, VertexInsertionState& state);
+  static bool raises_mean(const TetMesh& mesh, double usual, State& state) {
+    double before = 0;
+    for (const TetHandle t : state.replacement.old_tets) {
+      const TetVertices& v = mesh.vertices(t);
+      before += mean_ratio(mesh.point(v[0]), mesh.point(v[1]), mesh.point(v[2]), mesh.point(v[3])) -
+                usual;
+    }
+    Point& point = state.ball.point;
+    state.mean_ball.clear(point);
+    for (const HalfFace f : state.ball.link) {
+      const auto [a, b, c] = mesh.vertices(f);
+      state.mean_ball.add(mesh.point(a), mesh.point(b), mesh.point(c));
+    }
+    const auto count = static_cast<double>(state.ball.link.size());
+    constexpr double kMostGain = 0.1;  // of the mean, by moving the point: rarely more
+    if (count * (state.mean_ball.mean(point) + kMostGain - usual) <= before) return false;
+    constexpr int kSteps = 2;
+    point = state.mean_ball.descend(point, kSteps);
+    return count * (state.mean_ball.mean(point) - usual) > before;
+  }
 
   std::size_t max_tets_;
   bool smooth_;
   BallOptimiser::Limits limits_;
-};
-
-VertexInsertion::VertexInsertion(const OperatorInfo& info, const ParameterValues& values)
-    : OperatorOf(info, Judge::fair({.desperate = values.real("desperate")})),
-      max_tets_(static_cast<std::size_t>(values.integer("max_tets"))),
-      smooth_(values.flag("smooth")) {}
-
-Verdict VertexInsertion::precondition(const OperatorContext& context, Target target,
-                                      VertexInsertionState&) const {
-  const TetMesh& mesh = context.mesh;
-  if (has_no_room(context)) return Verdict::no_improvement;
-  return mesh.is_certified_positive(mesh.vertices(target.tet())) ? Verdict::accepted
-                                                                 : Verdict::not_applicable;
-}
-
-Verdict VertexInsertion::evaluate(OperatorContext& context, Target target,
-                                  VertexInsertionState& state) const {
-  const TetMesh& mesh = context.mesh;
-  auto& [ball, link, point] = state.ball;
-  const auto& cavity = state.replacement.old_tets;
-  point = place(mesh, target.tet());
-  Verdict verdict = locate_point(context, target.tet(), state);
-  if (verdict == Verdict::accepted) verdict = grow_cavity(context, max_tets_, state);
-  if (verdict == Verdict::accepted) verdict = trim_cavity(mesh, state);
-  if (verdict != Verdict::accepted) return verdict;
-  if (std::find(cavity.begin(), cavity.end(), target.tet()) == cavity.end()) {
-    return Verdict::no_improvement;
-  }
-  const Judge& judge = *context.judge;
-  if (judge.looks_at_mean() && !raises_mean(mesh, judge.usual(), state)) {
-    return Verdict::no_improvement;
-  }
-  if (!is_sphere(mesh, link)) return Verdict::inverted;
-  if (judge.looks_at_mean()) return Verdict::accepted;
-  load_ball(mesh, link, ball);
-  const double reached = smooth_ ? ball.optimise(point, limits_) : ball.worst(point);
-  return reached > context.judge->floor(worst_quality(mesh, cavity)) ? Verdict::accepted
-                                                                     : Verdict::no_improvement;
-}
-
-bool VertexInsertion::raises_mean(const TetMesh& mesh, double usual, VertexInsertionState& state) {
-  double before = 0;
-  for (const TetHandle t : state.replacement.old_tets) {
-    const TetVertices& v = mesh.vertices(t);
-    before +=
-        mean_ratio(mesh.point(v[0]), mesh.point(v[1]), mesh.point(v[2]), mesh.point(v[3])) - usual;
-  }
-  Point& point = state.ball.point;
-  state.mean_ball.clear(point);
-  for (const HalfFace f : state.ball.link) {
-    const auto [a, b, c] = mesh.vertices(f);
-    state.mean_ball.add(mesh.point(a), mesh.point(b), mesh.point(c));
-  }
-  const auto count = static_cast<double>(state.ball.link.size());
-  constexpr double kMostGain = 0.1;  // of the mean, by moving the point: rarely more
-  if (count * (state.mean_ball.mean(point) + kMostGain - usual) <= before) return false;
-  constexpr int kSteps = 2;
-  point = state.mean_ball.descend(point, kSteps);
-  return count * (state.mean_ball.mean(point) - usual) > before;
-}
-
-Verdict VertexInsertion::apply(OperatorContext& context, Target, Transaction& transaction,
-                               VertexInsertionState& state) const {
-  const VertexHandle v = transaction.add_vertex(state.ball.point);
-  if (!v.is_valid()) return Verdict::deferred;
-  state.replacement.new_tets.clear();
-  for (const HalfFace f : state.ball.link) {
-    const auto [a, b, c] = context.mesh.vertices(f);
-    state.replacement.new_tets.push_back({v, a, b, c});
-  }
-  return state.replacement.make(transaction);
-}
-
-/// Target: a tet. Inserts a vertex at its centroid, see VertexInsertion. With `max_tets` = 1 this
-/// is the 1-4 flip, which seldom improves anything: it divides each angle of the tet.
-class CentroidInsertion final : public VertexInsertion {
- public:
-  explicit CentroidInsertion(const ParameterValues& values)
-      : VertexInsertion(centroid_insertion_info(), values) {}
-
- protected:
-  Point place(const TetMesh& mesh, TetHandle t) const override {
-    Point sum = Point::Zero();
-    for (const VertexHandle v : mesh.vertices(t)) sum += mesh.point(v);
-    return sum / 4;
-  }
-};
-
-/// Target: a tet. Inserts a vertex at its circumcentre, see VertexInsertion. That is often another
-/// tet, and outside the mesh for flat tets at the boundary: then the verdict is `constrained`.
-class CircumcentreInsertion final : public VertexInsertion {
- public:
-  explicit CircumcentreInsertion(const ParameterValues& values)
-      : VertexInsertion(circumcentre_insertion_info(), values) {}
-
- protected:
-  Point place(const TetMesh& mesh, TetHandle t) const override {
-    const auto& v = mesh.vertices(t);
-    const Point& origin = mesh.point(v[0]);
-    const Point a = mesh.point(v[1]) - origin;
-    const Point b = mesh.point(v[2]) - origin;
-    const Point c = mesh.point(v[3]) - origin;
-    const Point sum =
-        a.squaredNorm() * b.cross(c) + b.squaredNorm() * c.cross(a) + c.squaredNorm() * a.cross(b);
-    return origin + sum / (2 * a.dot(b.cross(c)));
-  }
 };
 
 constexpr std::array<ParameterSpec, 3> kVertexInsertionParameters = {{
@@ -298,16 +271,18 @@ constexpr std::array<ParameterSpec, 3> kVertexInsertionParameters = {{
 }  // namespace
 
 const OperatorInfo& centroid_insertion_info() {
-  static constexpr OperatorInfo kInfo = describe<CentroidInsertion>(
-      "centroid_insertion", TargetKind::tet, "insert a vertex at the centroid of a tet",
-      kVertexInsertionParameters);
+  static constexpr OperatorInfo kInfo =
+      describe<VertexInsertion<centroid_insertion_info, centroid>>(
+          "centroid_insertion", TargetKind::tet, "insert a vertex at the centroid of a tet",
+          kVertexInsertionParameters);
   return kInfo;
 }
 
 const OperatorInfo& circumcentre_insertion_info() {
-  static constexpr OperatorInfo kInfo = describe<CircumcentreInsertion>(
-      "circumcentre_insertion", TargetKind::tet, "insert a vertex at the circumcentre of a tet",
-      kVertexInsertionParameters);
+  static constexpr OperatorInfo kInfo =
+      describe<VertexInsertion<circumcentre_insertion_info, circumcentre>>(
+          "circumcentre_insertion", TargetKind::tet, "insert a vertex at the circumcentre of a tet",
+          kVertexInsertionParameters);
   return kInfo;
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What an idea needs to work inside and at a surface that may change: one class makes two operators.
+// What a class needs that works inside and at a surface that may change, as two operators.
 #pragma once
 
 #include <vector>
