@@ -134,8 +134,8 @@ constexpr Row kRows[] = {
       .value = "fixed|flat|P%|LENGTH",
       .help =
           "How far the surface may move where it holds bad tets: not at all (fixed), only where "
-          "no shape changes (flat), 1% of the lengths of edges there, or a length such as 0.01 "
-          "(above 5% of the mesh's diagonal: 0.5!)",
+          "no shape changes (flat), 1% of the lengths of edges there, or a length such as "
+          "0.01, above 5% of the mesh's diagonal 0.5!",
       .initial = "fixed",
       .group = change},
      [](Options& o, std::string_view text) { o.surface = text; }},
