@@ -216,43 +216,46 @@ std::string preset_help() {
   return text;
 }
 
+void add_check_options(CLI::App& command, Options& options) {
+  command.add_option("FILE", options.file, "Mesh")->required()->type_name("");
+  command.add_option("OUT", options.improved, "What became of it: compared with FILE")
+      ->type_name("");
+  command
+      .add_option("MORE", options.more, "Three meshes and more are not compared: each is checked")
+      ->type_name("");
+  command.add_flag("--each", options.each, "Check two meshes each, instead of comparing them");
+  command
+      .add_option("--min-dihedral", options.wanted.min_dihedral,
+                  "No smaller dihedral angle; 0 to 71")
+      ->type_name("DEGREES")
+      ->check(number_from(0.0, 71.0));
+  command
+      .add_option("--max-dihedral", options.wanted.max_dihedral,
+                  "No larger dihedral angle; 70 to 180")
+      ->type_name("DEGREES")
+      ->check(number_from(70.0, 180.0));
+  command.add_flag("--no-inverted", options.wanted.no_inverted,
+                   "No inverted or flat tet, in exact arithmetic, as the\nfile lists its vertices");
+  command
+      .add_option("--measure", options.measures,
+                  "Worst value of a ruler of tetmend quality, such as\nmean_ratio=0.1; repeatable")
+      ->type_name("NAME=VALUE")
+      ->expected(1)
+      ->take_all();
+  command.add_option("--for", options.wanted.preset, "What a solver asks, see below")
+      ->type_name("PRESET");
+  command.add_flag("--json", options.json,
+                   "Print JSON (docs/check.schema.json); of several meshes a line each");
+  add_format_option(command, options.format);
+  add_threads_option(command, options.wanted.threads);
+}
+
 }  // namespace
 
 void add_check(CLI::App& app, Invocation& invocation) {
   const auto options = std::make_shared<Options>();
   CLI::App* command = app.add_subcommand("check", "Prove what a mesh, or a result, promises");
-  command->add_option("FILE", options->file, "Mesh")->required()->type_name("");
-  command->add_option("OUT", options->improved, "What became of it: compared with FILE")
-      ->type_name("");
-  command
-      ->add_option("MORE", options->more, "Three meshes and more are not compared: each is checked")
-      ->type_name("");
-  command->add_flag("--each", options->each, "Check two meshes each, instead of comparing them");
-  command
-      ->add_option("--min-dihedral", options->wanted.min_dihedral,
-                   "No smaller dihedral angle; 0 to 71")
-      ->type_name("DEGREES")
-      ->check(number_from(0.0, 71.0));
-  command
-      ->add_option("--max-dihedral", options->wanted.max_dihedral,
-                   "No larger dihedral angle; 70 to 180")
-      ->type_name("DEGREES")
-      ->check(number_from(70.0, 180.0));
-  command->add_flag(
-      "--no-inverted", options->wanted.no_inverted,
-      "No inverted or flat tet, in exact arithmetic, as the\nfile lists its vertices");
-  command
-      ->add_option("--measure", options->measures,
-                   "Worst value of a ruler of tetmend quality, such as\nmean_ratio=0.1; repeatable")
-      ->type_name("NAME=VALUE")
-      ->expected(1)
-      ->take_all();
-  command->add_option("--for", options->wanted.preset, "What a solver asks, see below")
-      ->type_name("PRESET");
-  command->add_flag("--json", options->json,
-                    "Print JSON (docs/check.schema.json); of several meshes a line each");
-  add_format_option(*command, options->format);
-  add_threads_option(*command, options->wanted.threads);
+  add_check_options(*command, *options);
   command->footer(fmt::format(
       R"(Prints a line for each fact. With two meshes, from the files alone: the same
 surface, bit for bit, the same faces between labels, named triangles and groups,

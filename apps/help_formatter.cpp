@@ -11,8 +11,8 @@
 namespace tetmend::apps {
 namespace {
 
-constexpr std::size_t kColumn = 28;
-constexpr std::size_t kWidth = 80;
+constexpr std::size_t kTextColumn = 28;
+constexpr std::size_t kHelpWidth = 80;
 constexpr const char* kExamples = "Examples:";
 
 constexpr std::array kHeadings = {headings::kUsual,  headings::kChange, headings::kSearch,
@@ -57,7 +57,7 @@ std::string block_of(const std::string& text, const std::string& heading) {
 }  // namespace
 
 HelpFormatter::HelpFormatter(bool is_short) : is_short_(is_short) {
-  column_width(kColumn);
+  column_width(kTextColumn);
   label("Positionals", "Arguments");
 }
 
@@ -130,7 +130,7 @@ std::string HelpFormatter::make_option_opts(const CLI::Option* option) const {
 }
 
 std::string HelpFormatter::make_option_desc(const CLI::Option* option) const {
-  return wrapped(option->get_description(), kWidth - kColumn);
+  return wrapped(option->get_description(), kHelpWidth - kTextColumn);
 }
 
 bool asks_for_short_help(const std::vector<std::string>& arguments) {

@@ -90,15 +90,13 @@ std::uint64_t read_size(std::string_view text) {
 constexpr std::string_view kSwitch = "true|false";
 constexpr bool kAdds = true;
 
-using enum OptionGroup;
-
 // A new option is a row here and a field of Options; the order is that of help.
 constexpr Row kRows[] = {
     {{.name = "schedule",
       .value = "NAME|FILE.lua",
       .help = "What is tried in which order: one of 'tetmend schedules', or a script",
       .initial = "shell",
-      .group = usual},
+      .group = OptionGroup::usual},
      [](Options& o, std::string_view text) { o.schedule = text; }},
     {{.name = "goal",
       .value = "MIN[,MAX]",
@@ -106,18 +104,18 @@ constexpr Row kRows[] = {
           "Degrees: no dihedral angle under MIN or over MAX; MAX alone: 180 less MIN. Tets that "
           "miss it are bad",
       .initial = "30,150",
-      .group = usual},
+      .group = OptionGroup::usual},
      [](Options& o, std::string_view text) { o.goal = read_goal(text); }},
     {{.name = "purpose",
       .value = "NAME",
       .help = "What the mesh is for: explicit, implicit, volumes or angles (see docs/choosing.md)",
       .initial = "any solver",
-      .group = usual},
+      .group = OptionGroup::usual},
      [](Options& o, std::string_view text) { o.purpose = text; }},
     {{.name = "time-limit",
       .value = "SECONDS",
       .help = "Stop improving after that time and write what was reached",
-      .group = usual},
+      .group = OptionGroup::usual},
      [](Options& o, std::string_view text) {
        o.time_limit = read_number(text, 1e-3, 1e9, "a number of seconds");
      }},
@@ -125,7 +123,7 @@ constexpr Row kRows[] = {
       .value = "N",
       .help = "Worker threads, 1 to 1024; the result is the same for every number",
       .initial = "1",
-      .group = usual,
+      .group = OptionGroup::usual,
       .letter = 'j'},
      [](Options& o, std::string_view text) {
        o.threads = read_number(text, 1, 1024, "a whole number");
@@ -134,17 +132,17 @@ constexpr Row kRows[] = {
       .value = "fixed|flat|P%|LENGTH",
       .help =
           "How far the surface may move where it holds bad tets: not at all (fixed), only where "
-          "no shape changes (flat), 1% of the lengths of edges there, or a length such as 0.01 "
-          "(above 5% of the mesh's diagonal: 0.5!)",
+          "no shape changes (flat), 1% of the lengths of edges there, or a length such as "
+          "0.01, above 5% of the mesh's diagonal 0.5!",
       .initial = "fixed",
-      .group = change},
+      .group = OptionGroup::change},
      [](Options& o, std::string_view text) { o.surface = text; }},
     {{.name = "feature-angle",
       .value = "DEGREES",
       .help = "Lines along which faces bend by more stay where they are",
       .initial = "40",
       .needs = "surface",
-      .group = change},
+      .group = OptionGroup::change},
      [](Options& o, std::string_view text) {
        o.feature_angle = read_number(text, 0.1, 180.0, "an angle in degrees");
      }},
@@ -154,33 +152,33 @@ constexpr Row kRows[] = {
           "How far the mesh may grow: 10% more tets than there were, or 500000 in all, not less "
           "than there are",
       .initial = "15%; with other schedules than shell and polish, as far as it pays",
-      .group = change},
+      .group = OptionGroup::change},
      [](Options& o, std::string_view text) { o.tets = text; }},
     {{.name = "keep-size",
       .value = kSwitch,
       .help = "Make no edge that is shorter than half or longer than twice what edges are there in "
               "IN",
-      .group = change},
+      .group = OptionGroup::change},
      [](Options& o, std::string_view text) { o.keep_size = read_switch(text); }},
     {{.name = "gradation",
       .value = "RATIO",
       .help = "Lengths grow by at most this less 1 times the distance; 0: as they like",
       .initial = "1.3",
-      .group = change},
+      .group = OptionGroup::change},
      [](Options& o, std::string_view text) {
        o.gradation = read_number(text, 0.0, 1e9, "a ratio");
      }},
     {{.name = "smallest",
       .value = "LENGTH",
       .help = "No length is wanted below that",
-      .group = change},
+      .group = OptionGroup::change},
      [](Options& o, std::string_view text) {
        o.smallest = read_number(text, 0.0, 1e300, "a length");
      }},
     {{.name = "largest",
       .value = "LENGTH",
       .help = "No length is wanted above that",
-      .group = change},
+      .group = OptionGroup::change},
      [](Options& o, std::string_view text) {
        o.largest = read_number(text, 0.0, 1e300, "a length");
      }},
@@ -190,61 +188,61 @@ constexpr Row kRows[] = {
           "Boundary layers, prisms cut into tets, stay as they are (keep) or are worked on like "
           "the rest (improve)",
       .initial = "keep",
-      .group = change},
+      .group = OptionGroup::change},
      [](Options& o, std::string_view text) { o.layers = read_layers(text); }},
     {{.name = "protect",
       .value = "SPEC",
       .adds = kAdds,
       .help = "Leave these tets as they are; repeatable",
-      .group = change},
+      .group = OptionGroup::change},
      [](Options& o, std::string_view text) { o.protect.emplace_back(text); }},
     {{.name = "only",
       .value = "SPEC",
       .adds = kAdds,
       .help = "Leave all other tets as they are; repeatable",
-      .group = change},
+      .group = OptionGroup::change},
      [](Options& o, std::string_view text) { o.only.emplace_back(text); }},
     {{.name = "ignore-interior",
       .value = kSwitch,
       .help = "Drop the triangles, edges and required vertices that the file names inside a region",
-      .group = change},
+      .group = OptionGroup::change},
      [](Options& o, std::string_view text) { o.ignore_interior = read_switch(text); }},
     {{.name = "straighten",
       .value = kSwitch,
       .help = "Second order: where tets stay turned over, make edges of the surface straight",
-      .group = change},
+      .group = OptionGroup::change},
      [](Options& o, std::string_view text) { o.straighten = read_switch(text); }},
     {{.name = "size",
       .value = "SIZE",
       .adds = kAdds,
       .help = "How long edges are to be, see below; may be given several times",
-      .group = usual},
+      .group = OptionGroup::usual},
      [](Options& o, std::string_view text) { o.size.emplace_back(text); }},
     {{.name = "set",
       .value = "NAME=VALUE",
       .adds = kAdds,
       .help = "Value of a parameter of the schedule, see 'tetmend schedules NAME'; may be given "
               "several times",
-      .group = search},
+      .group = OptionGroup::search},
      [](Options& o, std::string_view text) { o.set.push_back(read_setting(text)); }},
     {{.name = "measure",
       .value = "NAME",
       .help = "What tets are judged by: angles and needles, or with 'sine' angles alone, as in the "
               "paper",
       .initial = "sine_and_length",
-      .group = search},
+      .group = OptionGroup::search},
      [](Options& o, std::string_view text) { o.measure = text; }},
     {{.name = "conserve",
       .value = "NAME",
       .adds = kAdds,
       .help = "Keep the integral of this array of the tets: new tets get the mean of the old by "
               "shared volume; may be repeated",
-      .group = data},
+      .group = OptionGroup::data},
      [](Options& o, std::string_view text) { o.conserve.emplace_back(text); }},
     {{.name = "trace",
       .value = "FILE",
       .help = "Record all that happens, for 'tetmend trace'; the run uses one thread then",
-      .group = record},
+      .group = OptionGroup::record},
      [](Options& o, std::string_view text) { o.trace = text; }},
     {{.name = "trace-around",
       .value = "TET[,R]|X,Y,Z,R",
@@ -253,7 +251,7 @@ constexpr Row kRows[] = {
           "of IN, counted from 0, one less than quality --list says (radius: its longest edge, "
           "if not given)",
       .needs = "trace",
-      .group = record},
+      .group = OptionGroup::record},
      [](Options& o, std::string_view text) { o.trace_around = text; }},
     {{.name = "trace-operator",
       .value = "NAME",
@@ -262,13 +260,13 @@ constexpr Row kRows[] = {
           "Record only attempts of this operator, with all that they call; may be given several "
           "times",
       .needs = "trace",
-      .group = record},
+      .group = OptionGroup::record},
      [](Options& o, std::string_view text) { o.trace_operator.emplace_back(text); }},
     {{.name = "trace-depth",
       .value = "N",
       .help = "Record only attempts with at most that many attempts around them; 0: the outermost",
       .needs = "trace",
-      .group = record},
+      .group = OptionGroup::record},
      [](Options& o, std::string_view text) {
        o.trace_depth = read_number(text, 0, 1000, "a whole number");
      }},
@@ -276,7 +274,7 @@ constexpr Row kRows[] = {
       .value = "SIZE",
       .help = "End the trace before it is larger, such as 500M; the run goes on",
       .needs = "trace",
-      .group = record},
+      .group = OptionGroup::record},
      [](Options& o, std::string_view text) { o.trace_limit = read_size(text); }},
     {{.name = "trace-piece",
       .value = "ROUND[:PIECE]",
@@ -285,7 +283,7 @@ constexpr Row kRows[] = {
           "in round 1 the piece around the place of --trace-around, or the one with the worst "
           "tet",
       .needs = "trace",
-      .group = record},
+      .group = OptionGroup::record},
      [](Options& o, std::string_view text) { o.trace_piece = text; }},
     {{.name = "plugin",
       .value = "FILE",
@@ -293,7 +291,7 @@ constexpr Row kRows[] = {
       .help =
           "Load the operators of this shared library; may be repeated. TETMEND_PLUGIN_PATH names "
           "more: files, and folders for all *.so in them",
-      .group = plugins},
+      .group = OptionGroup::plugins},
      [](Options& o, std::string_view text) {
        if (text.empty()) throw Error("no file is named");
        o.plugin.emplace_back(text);
@@ -301,7 +299,7 @@ constexpr Row kRows[] = {
     {{.name = "check-operators",
       .value = kSwitch,
       .help = "Hold each attempt of a plugin to the contract of operators; slow, and in one thread",
-      .group = plugins},
+      .group = OptionGroup::plugins},
      [](Options& o, std::string_view text) { o.check_operators = read_switch(text); }},
     {{.name = "script",
       .value = "TEXT",

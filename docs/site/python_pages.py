@@ -57,7 +57,7 @@ def meanings() -> dict[str, str]:
 
 def list_of_options(of_command: dict[str, str]) -> list[str]:
     """In the words of the command line; of the few that it has not, in those of the page of the library."""
-    known = meanings() | of_command
+    known = meanings() | of_command | {"purpose": of_command["for"]}  # two names of one option
     lines = []
     for name, kind in options():
         if name not in known:

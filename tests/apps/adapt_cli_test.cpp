@@ -24,7 +24,8 @@ std::string temporary(const std::string& name) {
 TEST_CASE("tetmend adapt writes a mesh and says how well its edges keep to the sizes") {
   const std::string out = temporary("out.mesh");
   const std::string json = temporary("out.json");
-  const auto done = run_program({"adapt", kMesh, "--size", "0.5x", "-o", out, "--report", json});
+  const auto done =
+      run_program({"adapt", kMesh, "--size", "0.5x", "-v", "-o", out, "--report", json});
   CHECK(done.status == 0);
   CHECK(done.out.find("length over wanted") != std::string::npos);
   std::ifstream file(json);

@@ -64,17 +64,23 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("what help says of an option of the library is what its row says") {
+TEST_CASE("help says of an option of the library what its row says, and the manual has it") {
   std::string help = run_program({"improve", "--help"}).out + run_program({"adapt", "--help"}).out;
   help = std::regex_replace(help, std::regex("\\s+"), " ");
+  const std::string manual =
+      read_text(std::filesystem::path(TETMEND_SOURCE_DIR) / "docs" / "library.md");
   std::set<std::string_view> names;
   for (const OptionForm& form : option_forms()) names.insert(form.name);
   for (const OptionForm& form : option_forms()) {
     CAPTURE(form.name);
     CHECK(!form.help.empty());
     CHECK((form.needs.empty() || names.contains(form.needs)));
-    CHECK(form.group == OptionGroup::other == (form.name == "script" || form.name == "limit"));
-    if (form.group == OptionGroup::other) continue;
+    const bool is_of_no_command = form.name == "script" || form.name == "limit";
+    CHECK((form.group == OptionGroup::other) == is_of_no_command);
+    std::string field(form.name);
+    std::replace(field.begin(), field.end(), '-', '_');
+    CHECK(manual.find("`" + field + "`") != std::string::npos);
+    if (is_of_no_command) continue;
     const std::string_view begin = form.help.substr(0, form.help.size() - 1);  // may go on
     CHECK(help.find(begin) != std::string::npos);
     if (!form.initial.empty())
