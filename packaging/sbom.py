@@ -20,11 +20,13 @@ from functools import cache
 from pathlib import Path
 
 # Headers alone: a program has of them what it uses, and no dependency tells so.
-COMPILED_IN = ["libeigen3-dev", "libfast-float-dev", "libcli11-dev", "nlohmann-json3-dev"]
+COMPILED_IN = ["libeigen3-dev", "libfast-float-dev", "nlohmann-json3-dev"]
+IN_PROGRAMS = ["libcli11-dev"]
 IN_THE_VIEWER = ["libglm-dev", "libstb-dev", "libimgui-dev"]
 # Of the names that Debian's copyright files have, those that SPDX spells otherwise.
-SPDX_NAMES = {"Expat": "MIT", "BSD-3-clause": "BSD-3-Clause", "BSD-2-clause": "BSD-2-Clause", "Apache-2": "Apache-2.0", "zlib": "Zlib", "BSL-1": "BSL-1.0"}
-KNOWN = {"MIT", "BSD-3-Clause", "BSD-2-Clause", "Apache-2.0", "Zlib", "BSL-1.0", "MPL-2.0", "curl", "ISC"}
+SPDX_NAMES = {"Expat": "MIT", "BSD-3-clause": "BSD-3-Clause", "BSD-2-clause": "BSD-2-Clause", "Apache-2": "Apache-2.0", "zlib": "Zlib", "BSL-1": "BSL-1.0",
+              "MPL-2": "MPL-2.0", "GPL-2": "GPL-2.0-only"}
+KNOWN = {"MIT", "BSD-3-Clause", "BSD-2-Clause", "Apache-2.0", "Zlib", "BSL-1.0", "MPL-2.0", "GPL-2.0-only", "curl", "ISC"}
 
 
 @cache
@@ -38,9 +40,9 @@ def licence(package: str) -> str:
     """The one of its files in general, if the copyright file of its package says so in a form for programs."""
     file = Path(f"/usr/share/doc/{package}/copyright")
     text = file.read_text(errors="replace") if file.exists() else ""
-    found = re.search(r"^Files: \*\n(?:.+\n)*?License: *(.+)$", text, re.M)
-    name = SPDX_NAMES.get(found[1].strip(), found[1].strip()) if found else ""
-    return name if name in KNOWN else "NOASSERTION"
+    found = re.search(r"^Files: *\*\n(?:.+\n)*?License: *(.+)$", text, re.M)
+    names = [SPDX_NAMES.get(name, name) for name in re.split(r" or ", found[1].strip())] if found else [""]
+    return " OR ".join(names) if set(names) <= KNOWN else "NOASSERTION"
 
 
 def identifier(*words: str) -> str:
@@ -92,8 +94,10 @@ def sbom(release: str, address: str, files: list[Path]) -> dict:
         relations.append(relation("SPDXRef-DOCUMENT", "DESCRIBES", made))
         outside = depends_of(file) if file.suffix == ".deb" else []
         inside = bundled_in(file) if file.suffix == ".whl" else []
-        if file.suffix in (".deb", ".whl"):
-            inside = inside + COMPILED_IN + (IN_THE_VIEWER if file.name.startswith("tetmend-viewer_") else [])
+        if file.suffix == ".whl" or file.suffix == ".deb" and not file.name.startswith("libtetmend-dev_"):
+            inside = inside + COMPILED_IN
+        if file.suffix == ".deb" and file.name.startswith("tetmend"):
+            inside = inside + IN_PROGRAMS + (IN_THE_VIEWER if file.name.startswith("tetmend-viewer_") else [])
         for name, kind in [*((each, "DEPENDS_ON") for each in outside), *((each, "CONTAINS") for each in inside)]:
             other = dependency(name)
             packages[other["SPDXID"]] = other

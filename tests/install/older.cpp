@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: MIT
 // <tetmend/tetmend.hpp>, for programs in C++17: what a program does with it, and what it refuses. Status 0: all of it holds.
-#include <tetmend/tetmend.hpp>
-
 #include <array>
 #include <cstdio>
 #include <stdexcept>
@@ -9,6 +7,8 @@
 #include <type_traits>
 #include <utility>
 #include <vector>
+
+#include <tetmend/tetmend.hpp>
 
 using tetmend::cpp17::Error;
 using tetmend::cpp17::Mesh;
@@ -36,8 +36,9 @@ std::string refused(Call call) {
 }  // namespace
 
 int main() {
-  static_assert(!std::is_copy_constructible<Mesh>::value && std::is_nothrow_move_constructible<Mesh>::value,
-                "a handle has one owner");
+  static_assert(
+      !std::is_copy_constructible<Mesh>::value && std::is_nothrow_move_constructible<Mesh>::value,
+      "a handle has one owner");
   // A file, as the command line does it.
   Mesh mesh = Mesh::load("part.mesh");
   const auto old_count = mesh.count(TETMEND_POINTS);
@@ -67,11 +68,19 @@ int main() {
 
   // Mistakes are exceptions of one line.
   expect(refused([] { Mesh::load("none.mesh"); }).find("none.mesh") == 0, "a file that is missing");
-  expect(refused([&] { two.set("schedul", "x"); }).find("schedul") != std::string::npos, "an unknown option");
-  expect(!refused([&] { Mesh::of(points, std::vector<std::int32_t>{0, 1, 2}); }).empty(), "three points of a tet");
-  expect(!refused([&] { Mesh::of(points, tets, std::vector<std::int32_t>{1}); }).empty(), "too few labels");
+  expect(refused([&] { two.set("schedul", "x"); }).find("schedul") != std::string::npos,
+         "an unknown option");
+  expect(!refused([&] {
+            Mesh::of(points, std::vector<std::int32_t>{0, 1, 2});
+          }).empty(),
+         "three points of a tet");
+  expect(!refused([&] { Mesh::of(points, tets, std::vector<std::int32_t>{1}); }).empty(),
+         "too few labels");
   expect(!refused([&] { two.data(TETMEND_POINTS, "y"); }).empty(), "data that are not there");
-  expect(!refused([&] { two.set_data(TETMEND_POINTS, "z", std::vector<double>{1, 2, 3}); }).empty(), "too few data");
+  expect(!refused([&] {
+            two.set_data(TETMEND_POINTS, "z", std::vector<double>{1, 2, 3});
+          }).empty(),
+         "too few data");
 
   // What the progress function throws comes out, and the mesh is sound.
   Mesh again = Mesh::load("part.mesh");
