@@ -396,6 +396,10 @@ Selection Document::selection_of(std::span<const VertexHandle> vertices) const {
   };
   if (vertices.empty() || !std::all_of(vertices.begin(), vertices.end(), is_there)) return {};
   if (vertices.size() == 1) return vertices[0];
+  for (std::size_t i = 1; i < vertices.size(); ++i) {  // a vertex twice names nothing
+    const auto before = vertices.first(i);
+    if (std::find(before.begin(), before.end(), vertices[i]) != before.end()) return {};
+  }
   for (const TetHandle t : tets_of(mesh_, Selection(vertices[0]))) {
     const bool has_all = std::all_of(vertices.begin(), vertices.end(),
                                      [&](VertexHandle v) { return mesh_.local_index(t, v) < 4; });

@@ -150,7 +150,9 @@ TEST_CASE("what has given vertices is found, and what the mesh has not is not") 
   const auto vertices = document.pointed_selection(found).vertices;
   CHECK(std::is_permutation(vertices.begin(), vertices.end(), edge.begin()));
   const std::array face = {tet[3], tet[1], tet[0]};
-  REQUIRE(std::holds_alternative<TetHandle>(document.selection_of(face)));
+  REQUIRE(std::holds_alternative<HalfFace>(document.selection_of(face)));
+  const std::array twice = {tet[1], tet[1]};
+  CHECK(document.selection_of(twice) == viewer::Selection());
   const std::array vertex = {tet[1]};
   CHECK(document.selection_of(vertex) == viewer::Selection(tet[1]));
   const std::array far = {VertexHandle(0), VertexHandle(26)};  // opposite corners of two cells

@@ -123,10 +123,11 @@ TEST_CASE("bad tets are red and seen through the rest, unless that is off or the
   CHECK_FALSE(has_colour(s.document.scene().surface, kBadColour));
 }
 
-TEST_CASE("bad tets are seen where a cut or peeling hides them, but not where a filter does") {
+TEST_CASE("asked for, bad tets are seen where a cut or peeling hides them, not where a filter does") {
   for (const bool exact : {false, true}) {
     CAPTURE(exact);
     TestSession s(test::delaunay_ball(300, 3));
+    s.run("bad_beyond_cuts");
     const auto bad = static_cast<std::size_t>(state_of(s.document)["bad"]);
     REQUIRE(s.document.scene().bad_shown == bad);
     const auto triangles = s.document.scene().through.size();
@@ -143,9 +144,19 @@ TEST_CASE("bad tets are seen where a cut or peeling hides them, but not where a 
   }
 }
 
-TEST_CASE("bad tets beyond a cut can be left out") {
+TEST_CASE("no red spoils the colours of a measure") {
+  TestSession s(test::middle_tet(0.05));
+  REQUIRE(s.document.scene().bad_shown > 0);
+  s.run("colour", {"quality"});
+  CHECK(s.document.scene().through.empty());
+  s.run("colour", {"region"});
+  CHECK(s.document.scene().bad_shown > 0);
+}
+
+TEST_CASE("bad tets beyond a cut are left out unless they are asked for") {
   TestSession s(test::delaunay_ball(200, 2));
   s.run("cut", {1, {{"exact", true}}});
+  s.run("bad_beyond_cuts");
   const std::size_t all = s.document.scene().bad_shown;
   s.run("bad_beyond_cuts");
   const std::size_t left = s.document.scene().bad_shown;
