@@ -331,7 +331,7 @@ nlohmann::json to_json(const face::DrawnTet& tet, bool is_reason_known) {
   if (tet.facts.number <= 0) json["tet"] = nullptr;  // gets its number when it is written
   if (!is_reason_known) {
     json["hindrance"] = nullptr;
-    json["reason"] = "the run ended before the reason was looked for";
+    json["reason"] = "it was not looked for: the run was stopped, or had no more than pieces";
   }
   json["corners"] = nlohmann::json::array();
   for (const Point& corner : tet.corners) {

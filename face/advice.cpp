@@ -110,16 +110,17 @@ void Holders::add(const Holders& other) {
   border = border || other.border;
   frozen = frozen || other.frozen;
   at_surface |= other.at_surface;
+  fixed |= other.fixed;
 }
 
 void Held::add(const Holders& holders) {
   constexpr std::uint8_t kAllCorners = 0b1111;
-  const auto& [named, border, frozen, at_surface] = holders;
   ++bad;
-  by_named += named ? 1 : 0;
-  by_border += border ? 1 : 0;
-  by_frozen += frozen ? 1 : 0;
-  by_surface += at_surface == kAllCorners && !named && !border && !frozen ? 1 : 0;
+  by_named += holders.named ? 1 : 0;
+  by_border += holders.border ? 1 : 0;
+  by_frozen += holders.frozen ? 1 : 0;
+  const bool is_free = !holders.named && !holders.border && !holders.frozen;
+  by_surface += holders.at_surface == kAllCorners && is_free ? 1 : 0;
 }
 
 void Held::add(const Held& other) {
@@ -170,7 +171,9 @@ Holders HolderSearch::find(TetHandle t) const {
     const VertexHandle v = mesh_.vertices(t)[i];
     if (!knows(v)) continue;
     if (mesh_.is_boundary(v)) holders.at_surface |= static_cast<std::uint8_t>(1U << i);
-    if (!mesh_.is_fixed(v) || mesh_.is_boundary(v)) continue;
+    if (!mesh_.is_fixed(v)) continue;
+    holders.fixed |= static_cast<std::uint8_t>(1U << i);
+    if (mesh_.is_boundary(v)) continue;
     (on_border_[v.index()] != 0 ? holders.border
      : mesh_.is_frozen(v)       ? holders.frozen
                                 : holders.named) = true;

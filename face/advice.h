@@ -34,6 +34,7 @@ struct Holders {
   bool border = false;  ///< a face between labels
   bool frozen = false;
   std::uint8_t at_surface = 0;  ///< a bit for each corner that lies there
+  std::uint8_t fixed = 0;       ///< likewise, that must not move
 
   void add(const Holders& other);
 };

@@ -5,12 +5,15 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <numeric>
 #include <optional>
 #include <span>
+#include <tuple>
 #include <vector>
 
 #include <fmt/format.h>
 
+#include "face/bad_tets.h"
 #include "kernel/boundary_layers.h"
 #include "kernel/integrity.h"
 #include "kernel/mesh_builder.h"
@@ -172,6 +175,8 @@ class OwnOf {
     for (std::size_t i = 0; i < 3; ++i) vertices[i] = mesh_.origin(face[i]);
     return is_own(vertices, parts_, number_);
   }
+  bool has(const PieceTet& tet) const { return is_own(tet.vertices, parts_, number_); }
+  std::uint32_t part() const { return number_; }
   bool has(VertexHandle v) const { return parts_[mesh_.origin(v)] == number_; }
   RulerScope scope() const {
     return {.has_face = [this](HalfFace face) { return has(mesh_.vertices(face)); },
@@ -198,9 +203,37 @@ TetMesh build_own(const Piece& own, std::vector<std::uint32_t>* numbers) {
   return TetMesh::build(data, {.report = nullptr, .tet_numbers = numbers});
 }
 
-/// Bad tets with an own vertex, the protected ones apart, and what holds them.
+constexpr std::uint8_t kAllFixed = 0b1111;
+
+bool is_worse(const NamedTet& a, const NamedTet& b) {
+  return std::tie(a.facts.quality, a.part, a.facts.tet) <
+         std::tie(b.facts.quality, b.part, b.facts.tet);
+}
+
+void keep_worst(std::vector<NamedTet>& tets) {
+  std::sort(tets.begin(), tets.end(), is_worse);
+  if (tets.size() > kMostNamed) tets.resize(kMostNamed);
+}
+
+/// @param number in the piece
+NamedTet name_tet(const TetMesh& mesh, TetHandle t, const Piece& gathered, std::uint64_t number,
+                  std::uint8_t fixed) {
+  NamedTet named{.facts = face::describe(mesh, t, Hindrance::search)};
+  for (unsigned i = 0; i < 4; ++i) {
+    const VertexHandle v = mesh.vertices(t)[i];
+    named.vertices[i] = gathered.ids[mesh.origin(v)];
+    const Point p = mesh.point_in_file(v);
+    named.corners[i] = {p.x(), p.y(), p.z()};
+  }
+  named.fixed = fixed;
+  named.facts.tet = number;
+  return named;
+}
+
+/// Bad tets with an own vertex: the worst of its own, and what holds those that are not protected.
 void find_holders(TetMesh& mesh, std::span<const std::uint32_t> numbers, const Piece& gathered,
                   const OwnOf& own, const Standard& standard, Survey& survey) {
+  std::vector<NamedTet> worst;
   mesh.set_standard(standard);
   mesh.freeze([&](TetHandle t) { return gathered.tets[numbers[t.index()]].is_protected(); });
   const face::HolderSearch search(mesh, [&](VertexHandle v) { return own.has(v); });
@@ -210,21 +243,41 @@ void find_holders(TetMesh& mesh, std::span<const std::uint32_t> numbers, const P
   mesh.visit_below(kBadThreshold, 0, mesh.tet_slots(), [&](TetHandle t) {
     const TetVertices& v = mesh.vertices(t);
     const auto is_mine = [&](VertexHandle w) { return own.has(w); };
-    if (mesh.is_frozen(t) || std::none_of(v.begin(), v.end(), is_mine)) return;
+    const bool is_protected = mesh.is_frozen(t);
+    if (std::none_of(v.begin(), v.end(), is_mine)) return;
     const face::Holders holders = search.find(t);
+    const bool is_own_tet = own.has(gathered.tets[numbers[t.index()]]);
+    if (is_own_tet && misses_goal(mesh, t)) {
+      const std::uint8_t fixed = is_protected ? kAllFixed : holders.fixed;
+      worst.push_back(name_tet(mesh, t, gathered, numbers[t.index()], fixed));
+      if (worst.size() > 64 * kMostNamed) keep_worst(worst);
+    }
+    if (is_protected) return;
     if (std::all_of(v.begin(), v.end(), is_mine)) return survey.held.add(holders);
     const auto id = [&](unsigned i) { return gathered.ids[mesh.origin(v[i])]; };
     std::array<unsigned, 4> order = {0, 1, 2, 3};
     std::sort(order.begin(), order.end(), [&](unsigned a, unsigned b) { return id(a) < id(b); });
     SharedTet& shared = survey.shared.emplace_back();
     shared.holders = holders;
-    shared.holders.at_surface = 0;
+    shared.holders.at_surface = shared.holders.fixed = 0;
     for (unsigned i = 0; i < 4; ++i) {
       shared.vertices[i] = id(order[i]);
-      const unsigned bit = (unsigned{holders.at_surface} >> order[i]) & 1U;
-      shared.holders.at_surface |= static_cast<std::uint8_t>(bit << i);
+      const auto move = [&](unsigned bits) {
+        return static_cast<std::uint8_t>(((bits >> order[i]) & 1U) << i);
+      };
+      shared.holders.at_surface |= move(holders.at_surface);
+      shared.holders.fixed |= move(holders.fixed);
     }
   });
+  keep_worst(worst);
+  for (NamedTet& tet : worst) {  // its number among those that are stored
+    const auto end = gathered.tets.begin() + static_cast<std::ptrdiff_t>(tet.facts.tet);
+    tet.part = own.part();
+    tet.facts.tet = static_cast<std::size_t>(std::count_if(
+        gathered.tets.begin(), end, [&](const PieceTet& other) { return own.has(other); }));
+    survey.worst_tets.push_back(tet);
+  }
+  keep_worst(survey.worst_tets);
 }
 
 /// What is asked of a mesh that has all tets at the own faces and vertices.
@@ -338,19 +391,61 @@ std::array<double, kRulerCount> find_one_percent(const RulerShare& all, WorstSco
 
 namespace {
 
+/// @param fixed a bit for each corner
+face::DrawnTet draw(const NamedTet& tet, unsigned fixed) {
+  face::DrawnTet drawn{.corners = {}, .facts = tet.facts};
+  drawn.facts.free_vertices = 0;
+  for (unsigned i = 0; i < 4; ++i) {
+    const auto& [x, y, z] = tet.corners[i];
+    drawn.corners[i] = Point(x, y, z);
+    drawn.is_free[i] = ((fixed >> i) & 1U) == 0;
+    drawn.facts.free_vertices += drawn.is_free[i] ? 1 : 0;
+  }
+  return drawn;
+}
+
+/// With what all pieces know of a tet. @param shared ascending @param firsts of the tets of each part
+std::vector<face::DrawnTet> draw(std::vector<NamedTet> tets, std::span<const SharedTet> shared,
+                                 const std::vector<std::uint64_t>& firsts) {
+  keep_worst(tets);
+  std::vector<face::DrawnTet> drawn;
+  for (NamedTet& tet : tets) {
+    std::array<VertexId, 4> sorted = tet.vertices;
+    std::sort(sorted.begin(), sorted.end());
+    unsigned fixed = tet.fixed;
+    for (const SharedTet& other : shared) {
+      if (other.vertices != sorted) continue;
+      for (unsigned i = 0; i < 4; ++i) {
+        const auto at = std::find(sorted.begin(), sorted.end(), tet.vertices[i]) - sorted.begin();
+        fixed |= ((unsigned{other.holders.fixed} >> at) & 1U) << i;
+      }
+    }
+    tet.facts.tet += firsts[tet.part];
+    tet.facts.number = static_cast<std::int64_t>(tet.facts.tet) + 1;
+    drawn.push_back(draw(tet, fixed));
+  }
+  return drawn;
+}
+
 /// Of all ranks: what each piece knows of a tet comes together.
-face::Held gather_held(const Survey& survey, Ranks& ranks) {
+void gather_held(const Survey& survey, const std::vector<std::uint64_t>& tets_of_parts,
+                 Ranks& ranks, Measured& measured) {
   std::string mine;
   put(survey.held, mine);
   put(survey.shared, mine);
-  face::Held all;
+  put(survey.worst_tets, mine);
+  face::Held& all = measured.held;
   std::vector<SharedTet> shared;
+  std::vector<NamedTet> worst;
   for (const std::string& from : ranks.gather(mine)) {
     std::string_view rest = from;
     face::Held held;
     std::vector<SharedTet> tets;
     take(rest, held);
     take(rest, tets);
+    std::vector<NamedTet> named;
+    take(rest, named);
+    worst.insert(worst.end(), named.begin(), named.end());
     all.add(held);
     shared.insert(shared.end(), tets.begin(), tets.end());
   }
@@ -362,13 +457,16 @@ face::Held gather_held(const Survey& survey, Ranks& ranks) {
     for (; i < shared.size() && shared[i].vertices == vertices; ++i) holders.add(shared[i].holders);
     all.add(holders);
   }
-  return all;
+  std::vector<std::uint64_t> firsts(tets_of_parts.size(), 0);
+  std::exclusive_scan(tets_of_parts.begin(), tets_of_parts.end(), firsts.begin(), std::uint64_t{0});
+  measured.worst_tets = draw(std::move(worst), shared, firsts);
 }
 
 }  // namespace
 
-void add_survey(Survey survey, Ranks& ranks, Measured& measured) {
-  if (survey.finds_holders) measured.held = gather_held(survey, ranks);
+void add_survey(const std::vector<std::uint64_t>& tets, Survey survey, Ranks& ranks,
+                Measured& measured) {
+  if (survey.finds_holders) gather_held(survey, tets, ranks, measured);
   const RulerShare& all = measured.figures.rulers;
   measured.rulers = rulers_of(all, find_one_percent(all, survey.worst, ranks));
   const std::span<double> lengths = survey.lengths.lengths();

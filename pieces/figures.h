@@ -12,6 +12,7 @@
 
 #include "face/advice.h"
 #include "face/growth.h"
+#include "face/portrait.h"
 #include "kernel/bounds.h"
 #include "kernel/ruler_shares.h"
 #include "kernel/statistics.h"
@@ -45,6 +46,15 @@ struct SharedTet {
   face::Holders holders;
 };
 
+/// A bad tet to be named.
+struct NamedTet {
+  std::uint64_t part = 0;              ///< its number there follows in `facts`
+  std::array<VertexId, 4> vertices{};  ///< in its order
+  std::array<std::array<double, 3>, 4> corners{};
+  std::uint8_t fixed = 0;  ///< a bit for each corner; of a shared tet those that the piece knows
+  BadTet facts;
+};
+
 /// What no sum has, over the pieces of a rank.
 struct Survey {
   WorstScores worst;
@@ -54,6 +64,7 @@ struct Survey {
   bool finds_holders = false;  ///< of bad tets
   face::Held held = {};
   std::vector<SharedTet> shared = {};
+  std::vector<NamedTet> worst_tets = {};  ///< kMostNamed
 };
 
 /// How much of a mesh is measured besides its Figures.
@@ -65,13 +76,18 @@ struct Wanted {
   std::uint64_t tets = 0;      ///< likewise; 0: not known, which takes more memory
 };
 
+/// Bad tets that a report names.
+inline constexpr std::size_t kMostNamed = 12;
+
 /// A mesh in pieces, measured.
 struct Measured {
   Figures figures;
   std::optional<MeshRulers> rulers;
   std::optional<RulerHistograms> histograms;
   face::LocalLengths lengths;
-  face::Held held;  ///< not in bytes
+  // Not in bytes:
+  face::Held held;
+  std::vector<face::DrawnTet> worst_tets;  ///< kMostNamed of the bad ones, the worst first
 };
 void append(const Measured& measured, std::string& bytes);
 /// @throws Error when the bytes end too early.
@@ -79,7 +95,9 @@ Measured take_measured(std::string_view& bytes);
 
 /// All ranks: fills rulers, lengths and what holds bad tets; they are the same on all. Precondition:
 /// figures are of all.
-void add_survey(Survey survey, Ranks& ranks, Measured& measured);
+/// @param tets  of each part
+void add_survey(const std::vector<std::uint64_t>& tets, Survey survey, Ranks& ranks,
+                Measured& measured);
 
 /// Of the own tets, for the standard. The same whoever asks: of the coordinates in the order of the piece.
 Bounds bounds_of_own(const Piece& gathered, const Parting& parting, std::uint32_t number,

@@ -299,6 +299,7 @@ Result FolderRun::finish(const Options& options, face::Portrait* portrait) {
   if (portrait != nullptr) {
     portrait->rulers_before = saved_.before.histograms;
     portrait->rulers_after = after.histograms;
+    portrait->bad_after = after.worst_tets;
   }
   result.notes = face::advice_on(after.held, options, result);
   const std::filesystem::path output = saved_.output;
@@ -319,7 +320,10 @@ Result FolderRun::finish(const Options& options, face::Portrait* portrait) {
     std::optional<SurfaceChange> unchanged;
     if (steps.surface() != nullptr) unchanged = steps.surface()->unchanged();
     result.notes.push_back(stay_as_it_was(unchanged, result));
-    if (portrait != nullptr) portrait->rulers_after = saved_.before.histograms;
+    if (portrait != nullptr) {
+      portrait->rulers_after = saved_.before.histograms;
+      portrait->bad_after.clear();
+    }
     FolderShelf again(folder_.make_step(last + 1));
     DividedMesh slices(again, ranks, saved_.vertices);
     details.parts = saved_.division.pieces;

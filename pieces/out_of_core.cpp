@@ -340,6 +340,7 @@ void FileRun::measure_after() {
   if (files_.portrait == nullptr) return;
   files_.portrait->rulers_before = before_.histograms;
   files_.portrait->rulers_after = after.histograms;
+  files_.portrait->bad_after = after.worst_tets;
 }
 
 void FileRun::note_costs() const {
@@ -372,7 +373,10 @@ void FileRun::write() {
   if (!face::worse_for_nothing(result_).empty()) {
     result_.notes.push_back(stay_as_it_was(unchanged_surface_, result_));
     watcher_.noted(result_.notes.back());
-    if (files_.portrait != nullptr) files_.portrait->rulers_after = before_.histograms;
+    if (files_.portrait != nullptr) {
+      files_.portrait->rulers_after = before_.histograms;
+      files_.portrait->bad_after.clear();
+    }
     if (files_.array_files != nullptr && files_.input == files_.output) return;  // nothing to write
     read();  // slices are pieces, too
     parts = division_.pieces;

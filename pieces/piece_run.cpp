@@ -24,7 +24,8 @@ struct PartFigures {
 };
 
 /// Over all ranks, in the order of the parts: sums of reals are the same for any number of ranks.
-Figures sum(const std::vector<PartFigures>& mine, Ranks& ranks) {
+Figures sum(const std::vector<PartFigures>& mine, Ranks& ranks,
+            std::vector<std::uint64_t>& tets_of_parts) {
   std::string bytes;
   for (const PartFigures& each : mine) put(each, bytes);
   std::vector<PartFigures> parts;
@@ -34,7 +35,10 @@ Figures sum(const std::vector<PartFigures>& mine, Ranks& ranks) {
   std::sort(parts.begin(), parts.end(),
             [](const PartFigures& a, const PartFigures& b) { return a.part < b.part; });
   Figures all;
-  for (const PartFigures& each : parts) all.add(each.figures);
+  for (const PartFigures& each : parts) {
+    all.add(each.figures);
+    tets_of_parts.push_back(each.figures.statistics.tets);
+  }
   return all;
 }
 
@@ -231,8 +235,9 @@ Measured PieceRun::measure_before(const Wanted& wanted, Shelf* next) {
   }
   agree_on_bounds(bounds);
   Measured measured;
-  measured.figures = sum(mine, mesh_.ranks());
-  if (survey) add_survey(*std::move(survey), mesh_.ranks(), measured);
+  std::vector<std::uint64_t> tets;
+  measured.figures = sum(mine, mesh_.ranks(), tets);
+  if (survey) add_survey(tets, *std::move(survey), mesh_.ranks(), measured);
   if (!wanted.histograms || !measured.rulers) return measured;
   RulerHistograms& counts = measured.histograms.emplace(bins_for(*measured.rulers));
   for (const std::size_t part : mesh_.own()) {
@@ -504,8 +509,9 @@ Measured PieceRun::measure_after(const Wanted& wanted, const Measured& before, S
     surface_change_ = surface_->measure(share_surface(std::move(shares), mesh_.ranks()));
   }
   mesh_.number_added(std::vector<std::uint64_t>(mesh_.parts(), 0));
-  measured.figures = sum(mine, mesh_.ranks());
-  if (survey) add_survey(*std::move(survey), mesh_.ranks(), measured);
+  std::vector<std::uint64_t> tets;
+  measured.figures = sum(mine, mesh_.ranks(), tets);
+  if (survey) add_survey(tets, *std::move(survey), mesh_.ranks(), measured);
   if (measured.histograms) add_up(*measured.histograms, mesh_.ranks());
   return measured;
 }

@@ -91,6 +91,9 @@ def compare(made):
             if path.startswith((*OF_WHOLE, *OF_RUN)):
                 continue
             check(is_same(expected[path], got[path]), "another value", name, path, expected[path], got[path])
+        for expected_tet, tet in zip(made["pieces"][1]["worst_tets"], report["worst_tets"], strict=True):
+            for key in expected_tet.keys() - {"hindrance", "reason"}:
+                check(is_same(expected_tet[key], tet[key]), "another bad tet", name, key, expected_tet, tet)
         check(report["after"]["rulers"]["work"] is None, "what no piece can tell is told", name)
         check(report["histograms"]["step"]["after"] != report["histograms"]["step"]["before"], "one histogram", name)
 
