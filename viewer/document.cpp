@@ -385,8 +385,10 @@ void Document::undo_trial() {
 
 void Document::keep_trial() {
   if (trial_ == nullptr) throw Error("keep: no operator was tried");
-  if (!trial_->is_accepted()) throw Error("keep: the operator was refused, there is nothing to keep");
-  if (live.is_active()) throw Error("keep: a run is paused, and has a mesh of its own; stop it first");
+  if (!trial_->is_accepted())
+    throw Error("keep: the operator was refused, there is nothing to keep");
+  if (live.is_active())
+    throw Error("keep: a run is paused, and has a mesh of its own; stop it first");
   const std::string name = trial_->request().operator_name;
   TetMesh result = trial_->take_result();
   result.set_standard(aside_->standard);

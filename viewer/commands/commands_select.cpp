@@ -106,7 +106,8 @@ json go_to(Session& s, const json& a) {
     select_vertex(s, numbers);
   } else {
     throw Error(fmt::format(
-        "go_to: '{}' is not understood: tet NUMBER, edge FROM TO, face A B C or vertex NUMBER", text));
+        "go_to: '{}' is not understood: tet NUMBER, edge FROM TO, face A B C or vertex NUMBER",
+        text));
   }
   s.document.fly_to(Selection(s.document.selection()));
   return state_of(s.document)["selection"];
@@ -153,7 +154,8 @@ constexpr std::array kSelectCommands = {
             &select_face},
     Command{"select_vertex", "", "", "select_vertex(NUMBER)", "Select a vertex", &select_vertex},
     Command{"go_to", "Ctrl+G", kSelect, "go_to(\"edge 3 17\")",
-            "Select a tet NUMBER, an edge FROM TO, a face A B C or a vertex NUMBER, and go there", &go_to},
+            "Select a tet NUMBER, an edge FROM TO, a face A B C or a vertex NUMBER, and go there",
+            &go_to},
     Command{"deselect", "Escape", kSelect, "deselect()", "Select nothing", &deselect},
     Command{"worst", "W", kSelect, "worst(N)",
             "Show the N-th worst tet alone, from where it is seen best; the result is its number",

@@ -68,9 +68,10 @@ TrialRequest request_in(Session& s, const json& a) {
     } else if (name == "tet" || name == "edge" || name == "face" || name == "vertex") {
       request.target = target_in(s.document, arguments, name, value);
     } else {
-      throw Error(fmt::format("try_operator: '{}' is not known; valid: operator, tet, edge, face, "
-                              "vertex, set",
-                              name));
+      throw Error(
+          fmt::format("try_operator: '{}' is not known; valid: operator, tet, edge, face, "
+                      "vertex, set",
+                      name));
     }
   }
   const Registry& registry = s.document.live.registry();
@@ -110,12 +111,14 @@ json undo(Session& s, const json&) {
 }
 
 constexpr std::array kTrialCommands = {
-    Command{"try_operator", "", "Select",
-            "try_operator{operator = \"edge_removal\", edge = {3, 17}, set = {max_degree = 8}}",
-            "Try an operator at the selection, or at a tet, edge, face or vertex; the result is how "
-            "it ended",
-            &try_operator},
-    Command{"keep", "", "Select", "keep()", "Keep what the operator that was tried has done", &keep},
+    Command{
+        "try_operator", "", "Select",
+        "try_operator{operator = \"edge_removal\", edge = {3, 17}, set = {max_degree = 8}}",
+        "Try an operator at the selection, or at a tet, edge, face or vertex; the result is how "
+        "it ended",
+        &try_operator},
+    Command{"keep", "", "Select", "keep()", "Keep what the operator that was tried has done",
+            &keep},
     Command{"undo", "", "Select", "undo()",
             "Undo the operator that was tried: the mesh is as it was, bit for bit", &undo},
 };

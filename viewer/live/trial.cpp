@@ -81,9 +81,9 @@ Trial::Trial(const TetMesh& mesh, const Registry& registry, TrialRequest request
     TraceRecorder recorder(trace_, result_, std::move(header));
     Run run(result_, registry);
     run.set_trace(&recorder);
-    attempt_once(run, {.what = {.operator_name = request_.operator_name,
-                                .settings = request_.settings},
-                       .vertices = numbers_of(result_, request_.target)});
+    attempt_once(run,
+                 {.what = {.operator_name = request_.operator_name, .settings = request_.settings},
+                  .vertices = numbers_of(result_, request_.target)});
     run.set_trace(nullptr);
     recorder.finish();
   }

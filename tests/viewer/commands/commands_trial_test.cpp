@@ -121,7 +121,8 @@ TEST_CASE("a trial that cannot be is refused in words, and nothing changes") {
   TestSession s(sheet());
   const std::string before = bytes_of(s.document);
   const auto fails = [&](const json& request, const char* words) {
-    CHECK_THROWS_WITH_AS(s.run("try_operator", json::array({request})), doctest::Contains(words), Error);
+    CHECK_THROWS_WITH_AS(s.run("try_operator", json::array({request})), doctest::Contains(words),
+                         Error);
     CHECK(bytes_of(s.document) == before);
     CHECK(s.document.debugger() == nullptr);
   };

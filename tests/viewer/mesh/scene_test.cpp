@@ -123,7 +123,8 @@ TEST_CASE("bad tets are red and seen through the rest, unless that is off or the
   CHECK_FALSE(has_colour(s.document.scene().surface, kBadColour));
 }
 
-TEST_CASE("asked for, bad tets are seen where a cut or peeling hides them, not where a filter does") {
+TEST_CASE(
+    "asked for, bad tets are seen where a cut or peeling hides them, not where a filter does") {
   for (const bool exact : {false, true}) {
     CAPTURE(exact);
     TestSession s(test::delaunay_ball(300, 3));
