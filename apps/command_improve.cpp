@@ -211,6 +211,15 @@ void note_peaks(ImproveReport& report, Ranks* ranks) {
   }
 }
 
+constexpr const char* kFolderFileHelp =
+    R"(A file tetmend.conf of the folder in which the command runs holds options, a
+line each: "goal = 35", "keep-size = true", and comments behind #. What the
+command line says prevails, a line on standard error says what was taken, and
+--no-config takes nothing. Options that name files to be written, and --plugin,
+cannot stand there.
+
+)";
+
 /// The run with a schedule that tries nothing: all that is looked at before the first attempt, and
 /// nothing written.
 int run_dry(const ImproveOptions& options, const Invocation& invocation) {
@@ -229,14 +238,15 @@ int run_dry(const ImproveOptions& options, const Invocation& invocation) {
   progress.clear();
   if (options.quiet) return kSuccess;
   say(stream_beside(options.output),
-      fmt::format("tetmend {}: {} -> {}, nothing is written\n{}", version(), options.input.string(),
-                  options.output.string(), format_prospect(report)));
+      fmt::format("tetmend {}: {}, nothing is written\n{}", version(), options.input.string(),
+                  format_prospect(report)));
   return kSuccess;
 }
 
 }  // namespace
 
 int run_improve(ImproveOptions& options, Invocation& invocation) {
+  if (options.output.empty()) options.output = options.input;  // --dry-run alone allows that
   name_streams(options.format, options.input, &options.output);
   const bool is_first = invocation.ranks == nullptr || invocation.ranks->is_first();
   if (is_first) check_files(options, invocation.array_files);
@@ -278,7 +288,8 @@ void add_improve(CLI::App& app, Invocation& invocation) {
   const auto options = std::make_shared<ImproveOptions>();
   CLI::App* command = app.add_subcommand("improve", "Improve a mesh and keep its surface");
   add_improve_options(*command, *options);
-  if (invocation.ranks == nullptr) {
+  const bool alone = invocation.ranks == nullptr;
+  if (alone) {
     add_dry_run_option(*command, *options);
     add_folder_option(*command);
   }
@@ -288,13 +299,7 @@ untouched and no tet got inverted, and prints the main figures before and after;
 with -v all of them and the time of each pass. On a terminal a line shows the
 progress, and how long a pass that takes long still needs.
 
-A file tetmend.conf of the folder in which the command runs holds options, a
-line each: "goal = 35", "keep-size = true", and comments behind #. What the
-command line says prevails, a line on standard error says what was taken, and
---no-config takes nothing. Options that name files to be written, and --plugin,
-cannot stand there.
-
-An operator of a plugin that does not come back is named; two seconds after the
+{}An operator of a plugin that does not come back is named; two seconds after the
 time limit or Ctrl-C it ends the run with exit status 1, and no mesh is written.
 Mesh, reports and trace appear together: where one cannot be written, none is.
 Where the mesh goes from file to file (--memory, --checkpoint, parts), the trace
@@ -323,13 +328,13 @@ Examples:
   tetmend improve part.ele -o better.vtk --report better.html --quiet
   tetmend improve part.mesh -o better.mesh --schedule my.lua --time-limit 60
   tetmend improve part.mesh -o better.mesh --protect label:3
-  tetmend improve part.mesh -o better.mesh --dry-run
-  mesher | tetmend improve - -o - --format msh | solver
+{}  mesher | tetmend improve - -o - --format msh | solver
 
 Exit status: 0 success, 1 the work failed and OUT is as it was (but see above),
 2 wrong usage, 3 written, but tets miss the goal that --goal asked for, 4
 written, but interrupted)",
-      region_help(), mesh_format_list()));
+      alone ? kFolderFileHelp : "", region_help(), mesh_format_list(),
+      alone ? "  tetmend improve part.mesh --dry-run\n" : ""));
   command->callback([options, &invocation] {
     invocation.action = [options, &invocation] { return run_improve(*options, invocation); };
   });

@@ -172,9 +172,11 @@ void add_folder_option(CLI::App& command) {
 }
 
 void add_dry_run_option(CLI::App& command, ImproveOptions& options) {
-  command.add_flag(
-      "--dry-run", options.dry_run,
-      "Write nothing: say what would be kept, what is found, and what the surface forces");
+  command
+      .add_flag("--dry-run", options.dry_run,
+                "Write nothing, so OUT may be left out: say what would be kept, what is found, and "
+                "what the surface forces")
+      ->each([&command](const std::string&) { command.get_option("--output")->required(false); });
   group_options(command);
 }
 

@@ -663,15 +663,19 @@ Result face::improve(Mesh& mesh, const Options& options, Follower& follower) {
       options.threads, [&] { return Improvement(mesh, options, plan, nullptr, &follower).run(); });
 }
 
-Result improve(Mesh& mesh, const Options& options) {
+Result face::improve(Mesh& mesh, const Options& options, Portrait* portrait) {
   std::unique_ptr<TraceRecorder> trace;
-  Result result = face::improve(mesh, options, trace);
+  Result result = improve(mesh, options, trace, portrait);
   try {
     if (trace) trace->finish();
   } catch (const Error& error) {  // the mesh is none the worse for it
     result.trace_trouble = error.what();
   }
   return result;
+}
+
+Result improve(Mesh& mesh, const Options& options) {
+  return face::improve(mesh, options, nullptr);
 }
 
 Result adapt(Mesh& mesh, const Options& options) {

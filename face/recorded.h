@@ -22,6 +22,9 @@ namespace tetmend::face {
 Result improve(Mesh& mesh, const Options& options, std::unique_ptr<TraceRecorder>& trace,
                Portrait* portrait = nullptr);
 
+/// As tetmend::improve(), drawn. @param portrait see above
+Result improve(Mesh& mesh, const Options& options, Portrait* portrait);
+
 /// Looks into a run while it goes on.
 class Follower {
  public:

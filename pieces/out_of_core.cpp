@@ -13,6 +13,7 @@
 #include "face/arena.h"
 #include "face/mesh_access.h"
 #include "face/plan.h"
+#include "face/recorded.h"
 #include "face/watcher.h"
 #include "face/worse.h"
 #include "kernel/stopwatch.h"
@@ -164,7 +165,7 @@ Result FileRun::improve_whole() {
     tell_rest(mesh.notes());
   }
   Result result;
-  if (ranks_.is_first()) result = tetmend::improve(mesh, options_);
+  if (ranks_.is_first()) result = face::improve(mesh, options_, files_.portrait);
   if (files_.needs_trace && !result.trace_trouble.empty()) throw Error(result.trace_trouble);
   if (known != nullptr && known->is_one(files_.output)) {
     RankShare share;

@@ -14,6 +14,5 @@ local function picture(mesh, file)
   screenshot(file)
 end
 
-bad_beyond_cuts() -- they would hide the cut
 picture("assets/meshes/bracket.meshb", "docs/figures/before.png")
 picture("demo-out/improved.mesh", "docs/figures/after.png")

@@ -7,9 +7,7 @@ size(1100, 690)
 open("assets/meshes/bracket.meshb")
 cut(1, {position = 0.12})
 ghosts(0.12)
-bad_beyond_cuts() -- they would hide the cut
 screenshot("docs/figures/viewer-cut.png")
-bad_beyond_cuts()
 
 -- An exact cut in the colours of the measure, and the brushed histogram.
 show_all()

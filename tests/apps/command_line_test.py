@@ -114,6 +114,8 @@ class CommandLine(unittest.TestCase):
         self.assertIn(f"{tets:,}", done.stdout)
         self.assertIn("tets protected", done.stdout)
         self.assertIn("nothing is written", done.stdout)
+        self.assertEqual(self.run_program("improve", TWO, "--dry-run", "--protect", "label:1").stdout, done.stdout)
+        self.assertEqual(self.run_program("improve", TWO).returncode, 2)
         wrong = self.run_program("improve", TWO, "-o", "a.mesh", "--dry-run", "--memory", "1G")
         self.assertEqual(wrong.returncode, 2)
 

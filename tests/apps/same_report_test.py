@@ -66,6 +66,7 @@ def reports(folder, mesh, *options):
         made[name] = (out.read_bytes(), json.loads(report.read_text()))
 
     add("whole", PROGRAM, "improve")
+    add("one", PROGRAM, "improve", "--memory", "1G")
     add("pieces", PROGRAM, "improve", "--pieces", PIECES)
     add("files", PROGRAM, "improve", "--pieces", PIECES, "--memory", "1G")
     if MPI_PROGRAM != "none":
@@ -84,6 +85,11 @@ def compare(made):
     for name, (mesh, report) in made.items():
         check(keys(report) == whole, "other keys", name, keys(report) ^ whole)
         if name in ("whole", "pieces"):
+            continue
+        if name == "one":  # there is memory enough for the whole
+            check(mesh == made["whole"][0], "other bytes", name)
+            for path in ("histograms", "worst_tets"):
+                check(is_same(made["whole"][1][path], report[path]), "another value", name, path)
             continue
         check(mesh == made["pieces"][0], "other bytes", name)
         expected, got = leaves(made["pieces"][1]), leaves(report)

@@ -87,8 +87,9 @@ void draw_trial_panel(Session& session) {
   Document& document = session.document;
   choose_operator(document);
   wrapped_text(document.trial()->outcome());
-  ImGui::TextDisabled("%.2f ms, %u calls", 1000 * document.trial()->seconds(),
-                      document.trial()->call().subtree_end);
+  const unsigned calls = document.trial()->call().subtree_end;
+  ImGui::TextDisabled("%.2f ms, %u %s", 1000 * document.trial()->seconds(), calls,
+                      calls == 1 ? "call" : "calls");
   const OperatorInfo& info =
       document.live.registry().find(document.trial()->request().operator_name);
   edit_settings(document, info);
