@@ -644,9 +644,9 @@ TEST_CASE("a terminal shows progress in one line and Ctrl-C still gives a better
   terminal.wait_for("round  1");
   program.send(SIGINT);
   CHECK(program.wait() == 4);
-  const std::string text =
-      terminal.wait_for("tetmend: interrupted: wrote the mesh as improved so far");
-  const std::size_t message = text.rfind("tetmend: interrupted");
+  const std::string text = terminal.wait_for("interrupted: wrote the mesh as improved so far");
+  const std::size_t message = text.rfind("\033[31mtetmend: \033[0minterrupted");
+  REQUIRE(message != std::string::npos);
   // A note may come before the message, in a line of its own; the progress never ends a line.
   for (std::size_t end = text.find("\r\n"); end < message; end = text.find("\r\n", end + 2)) {
     const std::size_t begin = text.rfind('\r', end - 1) + 1;

@@ -406,7 +406,7 @@ def test_the_report_has_the_figures_and_names_of_the_command_line(tmp_path, comm
     for report in (ours, theirs):
         for each in report["passes"]:
             each.update(seconds=0, seconds_in_scans=0, seconds_in_blocks=0)
-    assert set(theirs) - set(ours) == {"arguments", "input", "output", "peak_memory_bytes", "histograms", "worst_tets"}
+    assert set(theirs) - set(ours) == {"arguments", "input", "output", "peak_memory_bytes", "histograms", "ranks", "worst_tets"}
     assert {name: ours[name] for name in ours} == {name: theirs[name] for name in ours}
 
 

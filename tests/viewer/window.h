@@ -145,7 +145,10 @@ class Viewer {
   /// Ends the program by its key; its last state. Keys are taken in order: so this waits for all
   /// that was typed before. Where something is unsaved, that is let go.
   nlohmann::json quit() {
-    type("key ctrl+q key d");
+    type("key ctrl+q");
+    for (int i = 0; i < 60 && !std::filesystem::exists("report.json"); ++i) {
+      type("key d sleep 0.2");  // a question takes keys from the picture on that it is in
+    }
     wait_for("report.json");
     CHECK(program_->wait() == 0);
     return nlohmann::json::parse(read_text("report.json"));

@@ -49,7 +49,7 @@ TEST_CASE("commands tell what is wrong with their arguments and how they are use
   CHECK_THROWS_WITH_AS(s.run("peel", {"much"}), doctest::Contains("peel(LAYERS)"), Error);
   CHECK_THROWS_WITH_AS(s.run("open", {7}), doctest::Contains("open(\"FILE\")"), Error);
   CHECK_THROWS_WITH_AS(s.run("cut", {0}), doctest::Contains("numbered 1 to 3"), Error);
-  CHECK_THROWS_WITH_AS(s.run("pick_kind", {"face"}), doctest::Contains("nearest, tet"), Error);
+  CHECK_THROWS_WITH_AS(s.run("pick_kind", {"region"}), doctest::Contains("nearest, tet"), Error);
   CHECK_THROWS_WITH_AS(s.run("locate"), doctest::Contains("nothing is selected"), Error);
 }
 
@@ -145,7 +145,7 @@ TEST_CASE("go_to selects what it is told and shows it in the middle") {
   const nlohmann::json at = s.run("locate");
   CHECK(static_cast<double>(at["x"]) == doctest::Approx(200).epsilon(0.02));
   CHECK_THROWS_WITH_AS(s.run("go_to", {"edge 0"}), doctest::Contains("edge FROM TO"), Error);
-  CHECK_THROWS_WITH_AS(s.run("go_to", {"face 0 1 2"}), doctest::Contains("not understood"), Error);
+  CHECK_THROWS_WITH_AS(s.run("go_to", {"shell 0 1"}), doctest::Contains("not understood"), Error);
   CHECK_THROWS_WITH_AS(s.run("go_to", {"tet 99"}), doctest::Contains("from 0 to 5"), Error);
   s.run("go_to", nlohmann::json::array());
   CHECK(s.document.ask_place);

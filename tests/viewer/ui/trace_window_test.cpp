@@ -179,7 +179,7 @@ TEST_CASE("a click on a call that a history names goes there") {
   // The first word in the colour of links in the right column, as far as its text goes.
   const auto is_link = [&](int x, int y) {
     const viewer::Colour& c = image.at(x, y);
-    return c.red < 110 && c.green > 120 && c.green < 190 && c.blue > 230;
+    return c.red < 70 && c.green > 80 && c.green < 130 && c.blue > 180 && c.blue < 220;
   };
   int left = image.width, right = 0, line = -1;
   for (int y = 215; y < 600 && (line < 0 || y < line + 12); ++y) {
