@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 // tetmend convert: the same mesh in another file format.
-#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -87,25 +86,43 @@ std::filesystem::path output_of(const ConvertOptions& options, const std::filesy
   return options.folder.empty() ? plain : options.folder / plain.filename();
 }
 
+/// Mistakes of all are found before the first is written.
+void check_several(const ConvertOptions& options, const std::vector<std::filesystem::path>& files,
+                   const pieces::ArrayFiles& parts) {
+  std::vector<NamedFile> inputs;
+  std::vector<NamedFile> outputs;
+  for (const auto& file : files) {
+    if (file == "-" || !options.format.empty()) {
+      throw UsageError("--to: it is for files, not for '-' and --format");
+    }
+    const std::filesystem::path output = output_of(options, file);
+    if (!parts.is_in_parts(output)) {
+      check_mesh_extension(output);
+      check_variant(output, options.carry);
+      if (options.parts > 0) throw UsageError("--pieces: OUT is no mesh in parts");
+    }
+    outputs.push_back({output.string(), output, NamedFile::Kind::mesh});
+    if (std::error_code error; std::filesystem::exists(file, error)) {
+      inputs.push_back({file.string(), file, NamedFile::Kind::mesh});
+    }
+  }
+  check_distinct(inputs, outputs, &parts);
+}
+
 /// One that cannot be converted is named, and the others follow; the status is that of the worst.
 int convert_several(ConvertOptions& options, Invocation& invocation) {
   std::vector<std::filesystem::path> files = {options.input};
   if (!options.output.empty()) files.push_back(options.output);
   files.insert(files.end(), options.more.begin(), options.more.end());
-  std::map<std::filesystem::path, std::filesystem::path> made;
-  for (const auto& file : files) {
-    const auto [before, is_new] = made.emplace(output_of(options, file), file);
-    check_mesh_extension(before->first);
-    if (is_new) continue;
-    throw UsageError(fmt::format("{}: {} and {} would be written there", before->first.string(),
-                                 before->second.string(), file.string()));
-  }
+  check_several(options, files, *invocation.array_files);
   std::size_t failed = 0;
   for (const auto& file : files) {
     options.input = file;
     options.output = output_of(options, file);
     try {
       convert_one(options, invocation);
+    } catch (const UsageError&) {
+      throw;
     } catch (const Error& error) {
       ++failed;
       complain(kFailed, error.what());

@@ -26,7 +26,7 @@
 #include "apps/mesh_formats.h"
 #include "apps/progress_line.h"
 #include "apps/standard_streams.h"
-#include "face/mesh_access.h"
+#include "face/portrait.h"
 #include "face/recorded.h"
 #include "kernel/formats/standard_stream.h"
 #include "kernel/stopwatch.h"
@@ -40,9 +40,14 @@ namespace {
 
 constexpr std::array<std::string_view, 3> kReportExtensions = {".json", ".html", ".htm"};
 
+/// Where the mesh goes, or would go in a dry run without OUT: it is as good as written in place.
+const std::filesystem::path& would_be(const ImproveOptions& options) {
+  return options.output.empty() ? options.input : options.output;
+}
+
 /// What would stop the run at its end is better found at its beginning.
 void check_files(const ImproveOptions& options, const pieces::ArrayFiles* known) {
-  check_formats(options.input, options.output, options.carry, known);
+  check_formats(options.input, would_be(options), options.carry, known);
   for (const std::filesystem::path& report : options.reports) {
     check_extension(report, kReportExtensions);
   }
@@ -55,13 +60,6 @@ void check_files(const ImproveOptions& options, const pieces::ArrayFiles* known)
   outputs.push_back({"--trace", options.run.trace});
   outputs.push_back({"--checkpoint", options.pieces.checkpoint, NamedFile::Kind::run_folder});
   prepare_files(inputs, outputs, known);
-}
-
-/// The worst tets by the numbers that the file of the mesh gives them.
-void number_tets(face::Portrait& portrait, const Mesh& mesh) {
-  const std::vector<std::int64_t>& numbers = MeshAccess::data(mesh).tet_numbers;
-  if (numbers.empty()) return;
-  for (face::DrawnTet& tet : portrait.bad_after) tet.facts.number = numbers[tet.facts.tet];
 }
 
 /// Runs from file to file: those of several processes, and where not all is in memory.
@@ -190,7 +188,7 @@ void improve_in_core(const ImproveOptions& options, ProgressLine& line,
     division.pieces = options.pieces.pieces;
     return pieces::improve(mesh, run, division, {}, portrait, &trace);
   });
-  number_tets(report.portrait, mesh);
+  face::number_tets(report.portrait, mesh);
   if (!report.result.trace_trouble.empty()) throw Error(report.result.trace_trouble);
   line.show(fmt::format("writing {}", options.output.string()));
   save_all(options, mesh, report, trace.get());
@@ -228,7 +226,7 @@ int run_dry(const ImproveOptions& options, const Invocation& invocation) {
   }
   ProgressLine progress(!options.quiet);
   ImproveReport report{.arguments = invocation.arguments, .options = options};
-  Mesh mesh = load_for(options.input, options.output, options.run.threads, options.carry,
+  Mesh mesh = load_for(options.input, would_be(options), options.run.threads, options.carry,
                        report.file_notes);
   Options nothing = options.run;
   nothing.script = "-- nothing is tried";
@@ -246,8 +244,9 @@ int run_dry(const ImproveOptions& options, const Invocation& invocation) {
 }  // namespace
 
 int run_improve(ImproveOptions& options, Invocation& invocation) {
-  if (options.output.empty()) options.output = options.input;  // --dry-run alone allows that
-  name_streams(options.format, options.input, &options.output);
+  const bool has_output = !options.output.empty();
+  if (!has_output && !options.dry_run) throw UsageError("--output: OUT is missing");
+  name_streams(options.format, options.input, has_output ? &options.output : nullptr);
   const bool is_first = invocation.ranks == nullptr || invocation.ranks->is_first();
   if (is_first) check_files(options, invocation.array_files);
   complete(options);

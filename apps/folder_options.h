@@ -2,6 +2,7 @@
 // Options of a run that a file of the folder holds: tetmend.conf, where the command runs.
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -14,11 +15,17 @@ namespace tetmend::apps {
 
 inline constexpr std::string_view kFolderFile = "tetmend.conf";
 
-/// What the file adds to the command line: "--goal=35", in its order. Options that the command line
-/// has are left out.
+/// A line of the file.
+struct FolderOption {
+  std::size_t line = 0;  ///< from 1
+  std::string argument;  ///< "--goal=35"
+};
+
+/// What the file adds to the command line, in its order. Left out are options that the command line
+/// has or excludes, and those that do nothing there: of another command, or without an option that they need.
 /// @param app has parsed the command line; nothing comes of other commands than improve and adapt,
 /// of --no-config, and where there is no such file
-/// @throws UsageError with the line that is none
-std::vector<std::string> folder_options(const CLI::App& app);
+/// @throws UsageError with the line that is none; Error where the file cannot be read
+std::vector<FolderOption> folder_options(const CLI::App& app);
 
 }  // namespace tetmend::apps

@@ -171,24 +171,42 @@ using Words = std::vector<std::string>;
 /// Parses twice: the command line alone says which command it is, and what of the folder's file it
 /// overrides.
 void take_folder_options(Invocation& invocation) {
+  Words& all = invocation.arguments;
+  if (!all.empty() && all.front() == "help") return;
   Invocation alone;
-  alone.arguments = invocation.arguments;
+  alone.arguments = all;
   const auto app = make_parser(alone);
   try {
-    app->parse(Words(alone.arguments.rbegin(), alone.arguments.rend()));
-  } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() == 0) return;  // help
-  }                                          // other mistakes are found again, and told
-  const std::vector<std::string> more = folder_options(*app);
+    app->parse(Words(all.rbegin(), all.rend()));
+  } catch (const CLI::RequiredError&) {  // the file may have what is missing
+  } catch (const CLI::ParseError&) {
+    return;  // help, or a mistake that is found again, and told
+  }
+  const std::vector<FolderOption> more = folder_options(*app);
   if (more.empty()) return;
   const CLI::App& command = *app->get_subcommands().front();
-  if (command.get_option("--quiet")->count() == 0) {
-    complain(kSuccess, fmt::format("{} says {}", kFolderFile, fmt::join(more, " ")));
-  }
   // Behind the name of the command: what follows may begin with --.
-  Words& all = invocation.arguments;
-  const auto name = std::find(all.begin(), all.end(), command.get_name());
-  all.insert(name == all.end() ? name : name + 1, more.begin(), more.end());
+  const auto place = std::find(all.begin(), all.end(), command.get_name()) - all.begin() + 1;
+  Words added;
+  for (const FolderOption& option : more) {
+    added.push_back(option.argument);
+    Words together = alone.arguments;
+    together.insert(together.begin() + place, added.begin(), added.end());
+    Invocation trial;
+    trial.arguments = together;
+    const auto parser = make_parser(trial);
+    try {
+      parser->parse(Words(together.rbegin(), together.rend()));
+    } catch (const CLI::RequiredError&) {  // told later, where a later line does not have it
+    } catch (const CLI::ParseError& error) {
+      throw UsageError(
+          fmt::format("{}:{}: {}", kFolderFile, option.line, describe(error, *parser, trial)));
+    }
+  }
+  if (command.get_option("--quiet")->count() == 0) {
+    complain(kSuccess, fmt::format("{} says {}", kFolderFile, fmt::join(added, " ")));
+  }
+  all.insert(all.begin() + place, added.begin(), added.end());
 }
 
 int run(int argc, char** argv, Invocation& invocation) {

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "face/bad_tets.h"
+#include "face/mesh_access.h"
 #include "kernel/chunks.h"
 
 namespace tetmend::face {
@@ -119,6 +120,12 @@ void Portrait::draw_after(const TetMesh& mesh,
   bad_after = draw_bad(mesh, hindrances);
   are_reasons_known = hindrances.size() == bad_after.size();
   if (rulers) rulers_after = count_rulers(mesh, means_);
+}
+
+void number_tets(Portrait& portrait, const Mesh& mesh) {
+  const std::vector<std::int64_t>& numbers = MeshAccess::data(mesh).tet_numbers;
+  if (numbers.empty()) return;
+  for (DrawnTet& tet : portrait.bad_after) tet.facts.number = numbers[tet.facts.tet];
 }
 
 }  // namespace tetmend::face

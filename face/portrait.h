@@ -51,4 +51,7 @@ struct Portrait {
   MeshRulers means_;  // of the mesh before: for the bins of both
 };
 
+/// Gives the bad tets after the run the numbers that the file of the mesh has, where it has its own.
+void number_tets(Portrait& portrait, const Mesh& mesh);
+
 }  // namespace tetmend::face

@@ -287,7 +287,10 @@ void Improvement::measure_after(Joined& joined) {
   if (!result_.limit) hindrances.clear();
   if (portrait_ != nullptr) {
     portrait_->draw_after(mesh, hindrances, result_.rulers_after);
-    for (face::DrawnTet& tet : portrait_->bad_after) tet.facts.tet = numbers[tet.facts.tet];
+    for (face::DrawnTet& tet : portrait_->bad_after) {
+      tet.facts.tet = numbers[tet.facts.tet];
+      tet.facts.number = tet.facts.tet + 1;
+    }
   }
   for (const std::string& text : face::advice_after(mesh, joined.data, options_, result_)) {
     note(text);

@@ -166,6 +166,7 @@ Result FileRun::improve_whole() {
   }
   Result result;
   if (ranks_.is_first()) result = face::improve(mesh, options_, files_.portrait);
+  if (ranks_.is_first() && files_.portrait != nullptr) face::number_tets(*files_.portrait, mesh);
   if (files_.needs_trace && !result.trace_trouble.empty()) throw Error(result.trace_trouble);
   if (known != nullptr && known->is_one(files_.output)) {
     RankShare share;

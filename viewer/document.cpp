@@ -366,7 +366,12 @@ void Document::try_operator(const TrialRequest& request) {
   auto trial = std::make_unique<Trial>(mesh, live.registry(), request, file_);
   std::unique_ptr<Shown> aside = aside_ != nullptr ? std::move(aside_) : put_aside();
   const Camera camera = view.camera;
-  show_debugger(trial->take_debugger());
+  try {
+    show_debugger(trial->take_debugger());
+  } catch (...) {
+    show_again(*aside);
+    throw;
+  }
   view.camera = camera;
   aside_ = std::move(aside);
   trial_ = std::move(trial);

@@ -26,6 +26,7 @@ struct OptionForm {
   OptionGroup group = OptionGroup::other;
   char letter = '\0';  ///< of its short form; 0: there is none
 
+  /// It takes no value on the command line.
   bool is_switch() const { return value == "true|false"; }
 };
 

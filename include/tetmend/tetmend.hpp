@@ -47,6 +47,8 @@ class View {
   View(const Container& all) : data_(all.data()), size_(all.size()) {}  // NOLINT(*-explicit-*)
   const T* data() const noexcept { return data_; }
   std::size_t size() const noexcept { return size_; }
+  /// A vector without elements may have memory all the same.
+  const T* or_null() const noexcept { return size_ == 0 ? nullptr : data_; }
 
  private:
   const T* data_ = nullptr;
@@ -74,7 +76,7 @@ class Mesh {
     mesh.whole(tets.size(), 4, "tets");
     mesh.labelled(labels, tets.size() / 4);
     mesh.check(tetmend_set_points(mesh.get(), points.data(), points.size() / 3));
-    mesh.check(tetmend_set_tets(mesh.get(), tets.data(), tets.size() / 4, labels.data()));
+    mesh.check(tetmend_set_tets(mesh.get(), tets.data(), tets.size() / 4, labels.or_null()));
     return mesh;
   }
   /// Appears when it is complete; a failure leaves an older file as it was.
@@ -89,7 +91,7 @@ class Mesh {
   Mesh& set_triangles(View<std::int32_t> triangles, View<std::int32_t> labels = {}) {
     whole(triangles.size(), 3, "triangles");
     labelled(labels, triangles.size() / 3);
-    check(tetmend_set_triangles(get(), triangles.data(), triangles.size() / 3, labels.data()));
+    check(tetmend_set_triangles(get(), triangles.data(), triangles.size() / 3, labels.or_null()));
     return *this;
   }
   /// Points that neither move nor vanish.
@@ -112,6 +114,7 @@ class Mesh {
   /// Called several times a second, by any thread of the run; the run stops if it gives false. What
   /// it throws stops the run as well, and improve() throws it on.
   Mesh& on_progress(std::function<bool(const tetmend_progress&)> function) {
+    stand();
     progress_->function = std::move(function);
     check(tetmend_set_progress(get(), progress_->function ? &Progress::call : nullptr,
                                progress_.get()));
@@ -119,6 +122,7 @@ class Mesh {
   }
   /// Improves the mesh in place. Its surface and all constraints stay bit for bit.
   tetmend_result improve() {
+    stand();
     progress_->thrown = nullptr;
     const tetmend_status status = tetmend_improve(get());
     if (progress_->thrown) std::rethrow_exception(std::exchange(progress_->thrown, nullptr));
@@ -226,6 +230,8 @@ class Mesh {
     }
   };
 
+  /// Throws for what was moved from.
+  void stand() const { check(get() != nullptr ? TETMEND_OK : TETMEND_WRONG_CALL); }
   [[noreturn]] void refuse(const std::string& message) const {
     throw Error(tetmend_refuse(get(), message.c_str()), message.c_str());
   }

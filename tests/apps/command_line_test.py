@@ -116,6 +116,12 @@ class CommandLine(unittest.TestCase):
         self.assertIn("nothing is written", done.stdout)
         self.assertEqual(self.run_program("improve", TWO, "--dry-run", "--protect", "label:1").stdout, done.stdout)
         self.assertEqual(self.run_program("improve", TWO).returncode, 2)
+        own = self.folder / "own.mesh"
+        own.write_bytes(Path(TWO).read_bytes())
+        for words in (["-o", ""], ["-o", "", "--memory", "1G"], ["--dry-run=false"]):
+            self.assertEqual(self.run_program("improve", own, *words).returncode, 2, words)
+            self.assertEqual(own.read_bytes(), Path(TWO).read_bytes(), words)
+        own.unlink()
         wrong = self.run_program("improve", TWO, "-o", "a.mesh", "--dry-run", "--memory", "1G")
         self.assertEqual(wrong.returncode, 2)
 
@@ -153,9 +159,13 @@ class CommandLine(unittest.TestCase):
         some = self.run_program("convert", "sheet.mesh", "none.mesh", "two_materials.mesh", "--to", "msh", "--json")
         self.assertEqual(some.returncode, 1)
         self.assertEqual([json.loads(line)["output"] for line in some.stdout.splitlines()], ["sheet.msh", "two_materials.msh"])
+        made = (self.folder / "sheet.msh").read_bytes()
         for words in (["sheet.mesh"], ["a.mesh", "b.msh", "c.vtu"], ["sheet.mesh", "a.msh", "--into", "to"],
-                      ["sheet.mesh", "sheet.msh", "--to", "vtu"], ["sheet.mesh", "--to", "mesh"]):
-            self.assertEqual(self.run_program("convert", *words).returncode, 2 if words[-1] != "mesh" else 1, words)
+                      ["sheet.mesh", "sheet.msh", "--to", "vtu"], ["sheet.mesh", "./sheet.msh", "--to", "vtu"],
+                      ["sheet.mesh", "./sheet.msh", "--to", "msh"], ["sheet.mesh", "--to", "mesh"],
+                      ["sheet.mesh", "--to", "msh", "--variant", "none"], ["-", "sheet.mesh", "--to", "msh"]):
+            self.assertEqual(self.run_program("convert", *words).returncode, 2, words)
+            self.assertEqual((self.folder / "sheet.msh").read_bytes(), made, words)
         self.assertEqual((self.folder / "sheet.mesh").read_bytes(), SHEET.read_bytes())
 
     # --- a folder's options
@@ -183,12 +193,37 @@ class CommandLine(unittest.TestCase):
                              ("\ngoal 20", "tetmend.conf:2: 'goal 20' is not of the form NAME = VALUE"),
                              ("plugin = evil.so", "tetmend.conf:1: 'plugin' stands on the command line alone"),
                              ("keep-size = yes", "tetmend.conf:1: keep-size: 'yes' is neither true nor false"),
-                             ("goal = x", "--goal: 'x' is not of the form MIN or MIN,MAX")]:
+                             ("goal = x", "tetmend.conf:1: --goal: 'x' is not of the form MIN or MIN,MAX"),
+                             ("\ngoal =", "tetmend.conf:2: goal: the value is missing"),
+                             ("surface = 5%", "tetmend.conf:1: 'surface' stands on the command line alone")]:
             (self.folder / "tetmend.conf").write_text(text)
             done = self.run_program("improve", TWO, "-o", "o.mesh")
             self.assertEqual(done.returncode, 2)
             self.assertIn(reason, done.stderr)
             self.assertFalse((self.folder / "o.mesh").exists())
+
+    def test_a_folder_adds_only_what_the_command_line_leaves_open(self) -> None:
+        def used(conf: bytes, *words: str) -> dict:
+            (self.folder / "tetmend.conf").write_bytes(conf)
+            done = self.run_program("improve", TWO, "-o", "o.mesh", "--report", "r.json", *words)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            return json.loads((self.folder / "r.json").read_text())
+
+        plain = used(b"", "--purpose", "implicit")["settings"]
+        self.assertEqual(used(b"for = explicit\n", "--purpose", "implicit")["settings"], plain)
+        used(b"feature-angle = 30\n")  # of --surface, which is not there
+        used(b"size = 0.5x\n")  # of adapt
+        self.assertEqual(used(b"\xef\xbb\xbfgoal = 20\r\n")["goal"]["min_angle"], 20)
+        (self.folder / "a#b.lua").write_text('description "none"\n')
+        self.assertEqual(used(b"schedule = \"a#b.lua\" # ours\n")["passes"], [])
+        (self.folder / "tetmend.conf").write_text("size = 0.9x\nkeep-size = true\n")
+        self.assertEqual(self.run_program("adapt", TWO, "-o", "o.mesh", "-q").returncode, 0)
+        self.assertEqual(self.run_program("help", "improve").returncode, 0)
+        (self.folder / "tetmend.conf").unlink()
+        (self.folder / "tetmend.conf").mkdir()
+        done = self.run_program("improve", TWO, "-o", "o.mesh")
+        self.assertIn("tetmend.conf: it cannot be read", done.stderr)
+        self.assertEqual(done.returncode, 1)
 
     # --- colours
 

@@ -86,6 +86,7 @@ void choose_operator(Document& document) {
 void draw_trial_panel(Session& session) {
   Document& document = session.document;
   choose_operator(document);
+  if (document.trial() == nullptr) return;
   wrapped_text(document.trial()->outcome());
   const unsigned calls = document.trial()->call().subtree_end;
   ImGui::TextDisabled("%.2f ms, %u %s", 1000 * document.trial()->seconds(), calls,

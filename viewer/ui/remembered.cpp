@@ -65,7 +65,11 @@ void remember(const Document& document) {
                            {"panels", document.show_panels},
                            {"recent", document.recent}};
     out << settings.dump(1, ' ', false, json::error_handler_t::replace) << '\n';
-    if (!out) return;
+    out.close();
+    if (!out) {
+      std::filesystem::remove(unfinished, none);
+      return;
+    }
   }
   std::filesystem::rename(unfinished, *file, none);
 }

@@ -8,6 +8,8 @@ from collections.abc import Iterable, Sequence
 from html import escape
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 from tetmend import _core
 
 if TYPE_CHECKING:
@@ -62,7 +64,7 @@ def _list(lines: Iterable[str]) -> str:
 
 def mesh_as_html(mesh: Mesh) -> str:
     """How many there are of each, the names of groups and data, and what of its file is not here."""
-    counts = {"points": len(mesh.points), "tets": len(mesh.tets), "regions": len(set(mesh.labels.tolist())), "triangles": len(mesh.triangles),
+    counts = {"points": len(mesh.points), "tets": len(mesh.tets), "regions": len(np.unique(mesh.labels)), "triangles": len(mesh.triangles),
               "edges": len(mesh.edges), "required points": len(mesh.required)}
     rows = [(name, f"{count:,}") for name, count in counts.items() if count or name in ("points", "tets")]
     names = {"groups": [group.name or str(group.number) for group in mesh.groups]}
