@@ -23,8 +23,8 @@ struct OptionForm {
   std::string_view help = {};     ///< what it does, one line however long
   std::string_view initial = {};  ///< what holds without it, for people; empty: nothing to be said
   std::string_view needs = {};    ///< the option without which it does nothing; empty: none
-  OptionGroup group = OptionGroup::other;
-  char letter = '\0';  ///< of its short form; 0: there is none
+  OptionGroup group = OptionGroup::other;  ///< where help lists it
+  char letter = '\0';                      ///< of its short form; 0: there is none
 
   /// It takes no value on the command line.
   bool is_switch() const { return value == "true|false"; }

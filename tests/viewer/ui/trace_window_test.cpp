@@ -137,14 +137,14 @@ TEST_CASE("a right click goes to what the mouse is on, or asks for its history")
     Viewer viewer(kLesson, "1300x850");
     go_to_second_shell();
     type("mousemove 550 748 click 3");
-    click(575, 764);  // Go to call 1
+    click(575, 747);  // Go to call 1
     CHECK(viewer.quit()["trace"]["position"] == 4);
   }
   SUBCASE("to the edge that it aimed at") {
     Viewer viewer(kLesson, "1300x850");
     go_to_second_shell();
     type("mousemove 550 748 click 3");
-    click(575, 805);  // Go to this edge
+    click(575, 789);  // Go to this edge
     const auto state = viewer.quit();
     CHECK(state["trace"]["position"] == 8);
     CHECK(state["selection"]["kind"] == "edge");
@@ -154,7 +154,7 @@ TEST_CASE("a right click goes to what the mouse is on, or asks for its history")
     Viewer viewer(kLesson, "1300x850");
     go_to_second_shell();
     type("mousemove 134 484 click 3");
-    click(160, 541);  // History of this vertex
+    click(160, 563);  // History of this vertex
     CHECK(viewer.quit()["message"] == "the history of vertex:0 is in the panel History");
   }
   SUBCASE("Escape closes the menu, and nothing else") {
