@@ -122,6 +122,7 @@ std::string describe(const CLI::ParseError& error, const CLI::App& app,
                      const Invocation& invocation) {
   const auto chosen = app.get_subcommands();
   for (const std::string& word : app.remaining(true)) {
+    if (!word.starts_with("-") && chosen.empty()) break;  // a mistyped subcommand
     if (!word.starts_with("-")) continue;
     const CLI::App& command = chosen.empty() ? app : *chosen.front();
     return fmt::format("unknown option '{}'{} (see tetmend{} --help)", word,

@@ -251,13 +251,25 @@ void Improvement::hold_curved() {
   if (!curved_edges_->is_empty()) mesh_.set_curved_edges(curved_edges_);
 }
 
+/// A slip of a digit asks for more than any memory holds.
+void check_wanted(double tets) {
+  constexpr double kMost = 1e9;  // what handles can name
+  if (tets <= kMost) return;
+  throw OptionError("size", fmt::format("size: so short edges make about {:.2g} tets, and a mesh "
+                                        "has at most {:.0g}",
+                                        tets, kMost));
+}
+
 void Improvement::measure_before() {
   watcher_.begin(Stage::measuring);
   const Stopwatch watch(result_.measuring);
   result_.before = compute_statistics(mesh_, options_.goal);
   first_ = quality_indicators(mesh_);
   if (curved_edges_) result_.curved_before = curved_statistics(input_, mesh_);
-  if (plan_.sizes.are_wanted()) result_.sizes_before = face::size_statistics(mesh_);
+  if (plan_.sizes.are_wanted()) {
+    result_.sizes_before = face::size_statistics(mesh_);
+    if (options_.tets.empty()) check_wanted(result_.sizes_before->tets_wanted);
+  }
   if (options_.rulers) {
     result_.rulers_before = diagonals_ ? measure_rulers(mesh_, *diagonals_) : measure_rulers(mesh_);
     lengths_ = face::LocalLengths(mesh_, vertices_before_);

@@ -190,9 +190,9 @@ constexpr std::array<WordInfo, 28> kWords = {{
      "from now on what makes the mesh grow adds tets that are round enough: the mean ratios of all "
      "that changes, each less this number, have no smaller sum than before. 0: as from the start"},
     {"hold_worst", "hold_worst()",
-     "from now on no change makes a tet with a smaller angle than the smallest of the mesh now. None "
-     "makes a larger one than its largest and that of the goal. From the start it is so with those "
-     "of the input"},
+     "from now on no change makes a tet with a smaller angle than the smallest of the mesh now. "
+     "None makes a larger one than its largest and that of the goal. From the start it is so with "
+     "those of the input"},
     {"quality_of_angle", "quality_of_angle(degrees)",
      "the quality of a tet whose worst angle is this, for the present goal"},
     {"quality", "quality()",

@@ -11,6 +11,6 @@
 #define TETMEND_CXX 0
 #endif
 #if TETMEND_CXX < 202002L && !(defined(__GNUC__) && TETMEND_CXX > 201703L)
-#error "The C++ headers of tetmend need C++20; <tetmend/tetmend.hpp> is for C++17, <tetmend/tetmend.h> for C and any C++."
+#error "The C++ headers of tetmend need C++20; C++17 has <tetmend/tetmend.hpp>, C tetmend.h."
 #endif
 #undef TETMEND_CXX

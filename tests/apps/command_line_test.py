@@ -125,6 +125,11 @@ class CommandLine(unittest.TestCase):
         wrong = self.run_program("improve", TWO, "-o", "a.mesh", "--dry-run", "--memory", "1G")
         self.assertEqual(wrong.returncode, 2)
 
+    def test_a_mistyped_subcommand_is_told_before_its_options(self) -> None:
+        done = self.run_program("imrpove", TWO, "-o", "a.mesh")
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("did you mean 'improve'?", done.stderr)
+
     # --- many files
 
     def test_check_of_many_says_a_line_each_and_has_the_status_of_the_worst(self) -> None:

@@ -92,6 +92,8 @@ TEST_CASE(
   const std::size_t points = MeshAccess::data(mesh).points.size();
   CHECK_THROWS_AS(adapt(mesh, {.size = {"array:wrong"}}), Error);
   CHECK_THROWS_AS(adapt(mesh, {.size = {"not_there.sol"}}), Error);
+  CHECK_THROWS_WITH_AS(adapt(mesh, {.size = {"0.00001x"}}),
+                       doctest::Contains("a mesh has at most 1e+09"), OptionError);
   CHECK(MeshAccess::data(mesh).points.size() == points);
 }
 
