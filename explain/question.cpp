@@ -93,8 +93,9 @@ void answer_chord(const TraceFile& file, Replay& replay, Question& question) {
     if ((i + 1) % m == j || (j + 1) % m == i) return;  // a side of the ring
     const std::array<std::uint32_t, 2> chord = {shell.ring[std::min(i, j)].index(),
                                                 shell.ring[std::max(i, j)].index()};
-    if (std::ranges::find(question.chords, chord) == question.chords.end()) {
-      question.chords.push_back(chord);
+    auto& chords = question.chords;
+    if (std::find(chords.begin(), chords.end(), chord) == chords.end()) {
+      chords.push_back(chord);
     }
   };
   for (const auto& t : covering.triangles) {
@@ -141,7 +142,7 @@ double table_entry(const ShellPicture& shell, const std::string& of) {
   }
   std::array<std::size_t, 2> places{};
   for (std::size_t n = 0; n < 2; ++n) {
-    const auto found = std::ranges::find(shell.ring, VertexHandle(vertices[n]));
+    const auto found = std::find(shell.ring.begin(), shell.ring.end(), VertexHandle(vertices[n]));
     if (found == shell.ring.end()) throw Error(fmt::format("{} is not in the ring", vertices[n]));
     places[n] = static_cast<std::size_t>(found - shell.ring.begin());
   }

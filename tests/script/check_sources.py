@@ -46,7 +46,9 @@ class Build:
         self.folder = database.parent
         self.sources = list(dict.fromkeys(Path(entry["directory"], entry["file"]).resolve() for entry in entries))
         words: dict[tuple[str, ...], None] = {}
+        self.own_words: dict[Path, list[str]] = {}
         for entry in entries:
+            own: list[tuple[str, ...]] = []
             given = shlex.split(entry["command"])
             given = given[next(i for i, word in enumerate(given) if not word.endswith("ccache")):]
             self.compiler = given[0]
@@ -55,9 +57,11 @@ class Build:
                 if word in ("-o", "-c"):
                     next(taken)
                 elif word in ("-isystem", "-include"):
-                    words[word, next(taken)] = None
+                    own.append((word, next(taken)))
                 elif word.startswith(("-I", "-D", "-std", "-stdlib", "-f", "-U")) and not word.startswith(("-fPI", "-D_FORTIFY", "-U_FORT")):
-                    words[(word,)] = None
+                    own.append((word,))
+            words |= dict.fromkeys(own)
+            self.own_words[Path(entry["directory"], entry["file"]).resolve()] = [word for pair in own for word in pair]
         self.words = [word for pair in words for word in pair]
 
     def call(self, *more: object) -> subprocess.CompletedProcess:
@@ -80,6 +84,9 @@ class Build:
         """The sources that do not compile, and what the compiler says of them."""
         if len(sources) == 1:
             done = self.call("-fsyntax-only", sources[0])
+            if done.returncode:  # two libraries may have headers of one name: then by its own command
+                own = [self.compiler, *self.own_words[sources[0]], "-w", "-fsyntax-only", str(sources[0])]
+                done = subprocess.run(own, cwd=self.folder, capture_output=True, text=True)
             return (sources, done.stderr) if done.returncode else ([], "")
         batch = self.folder / f"check_sources_{self.sources.index(sources[0])}.cpp"
         batch.write_text("".join(f'#include "{source}"\n' for source in sources))
