@@ -121,6 +121,7 @@ class FebioReader {
         set.points.push_back(static_cast<std::uint32_t>(mesh_.points.size()));
         mesh_.point_numbers.push_back(id_of(node, "the id of a node"));
         places.push_back(place_of(node));
+        refuse_content(node);
         const auto numbers = words(node.child_value());
         Point& point = mesh_.points.emplace_back(Point::Zero());
         for (int axis = 0; axis < 3; ++axis) {
@@ -215,6 +216,7 @@ class FebioReader {
     row.place = place_of(node);
     row.number = id_of(node, "the id of an element");
     row.label = label_;
+    refuse_content(node);
     const auto numbers = words(node.child_value());
     if (numbers.size() != kind.width) {
       fail(node, fmt::format("the element has {} nodes: expected {}", numbers.size(), kind.width));
@@ -444,6 +446,31 @@ class FebioReader {
     std::string name;
   };
 
+  /// Where "</name" begins, not one within a comment or the like; npos: nowhere.
+  static std::size_t end_tag(std::string_view text, std::size_t at, std::string_view name) {
+    constexpr std::array<std::array<std::string_view, 2>, 3> kSkipped = {
+        {{"<!--", "-->"}, {"<![CDATA[", "]]>"}, {"<?", "?>"}}};
+    const std::string tag = fmt::format("</{}", name);
+    while ((at = text.find('<', at)) != std::string_view::npos) {
+      const std::string_view rest = text.substr(at);
+      if (rest.starts_with(tag)) return at;
+      const auto skipped = std::find_if(kSkipped.begin(), kSkipped.end(), [&](const auto& each) {
+        return rest.starts_with(each[0]);
+      });
+      at = skipped == kSkipped.end() ? at + 1 : text.find((*skipped)[1], at);
+    }
+    return at;
+  }
+
+  /// What is written anew is text alone.
+  void refuse_content(pugi::xml_node node) const {
+    for (const pugi::xml_node child : node.children()) {
+      if (child.type() != pugi::node_element) continue;
+      fail(child,
+           fmt::format("<{}> holds another element of XML: expected numbers alone", node.name()));
+    }
+  }
+
   void replace(pugi::xml_node node, FebioPiece piece, std::size_t set, Label label = 0,
                std::string name = {}) {
     const std::string_view text(file_.begin(), file_.size());
@@ -459,7 +486,7 @@ class FebioReader {
       }
     }
     if (at >= text.size() || text[at - 1] == '/') return;  // it has no content
-    const std::size_t end = text.find(fmt::format("</{}", node.name()), at);
+    const std::size_t end = end_tag(text, at, node.name());
     if (end == std::string_view::npos) fail(node, "the end of the element of XML is not found");
     replaced_.push_back(
         {text.data() + at + 1, text.data() + end, piece, set, label, std::move(name)});

@@ -108,8 +108,8 @@ class FebioWriter {
       case febio_nodes:
         write_nodes(number);
         break;
-      case febio_elements:
-        write_elements(number);
+      case febio_elements:  // the first of two blocks of one label has the elements of both
+        if (labels_written_.insert(number).second) write_elements(number);
         break;
       case febio_list:
       case febio_tags:
@@ -305,6 +305,7 @@ class FebioWriter {
   std::vector<GroupMembers> members_;
   std::map<std::pair<int, Label>, std::size_t> group_of_;  // by dimension and number
   std::map<Label, std::vector<GroupMembers::Member>> of_label_;
+  std::set<Label> labels_written_;  // of blocks of the deck
   std::map<Label, std::vector<std::uint32_t>> points_of_block_;
   std::array<UniqueNames, 4> names_;  // by dimension
 };

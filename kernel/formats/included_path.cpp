@@ -25,6 +25,12 @@ std::filesystem::path included_path(const std::filesystem::path& folder, std::st
   return std::filesystem::exists(made, ignored) ? made : as_it_stands;
 }
 
+std::filesystem::path place_of_included(const std::filesystem::path& path) {
+  std::error_code error;
+  std::filesystem::path place = std::filesystem::weakly_canonical(path, error);
+  return error ? path.lexically_normal() : place;
+}
+
 std::vector<std::string> included_files_stay(const std::filesystem::path& file,
                                              const std::string& folder, std::string_view keyword) {
   if (folder.empty() ||

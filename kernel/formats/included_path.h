@@ -13,6 +13,9 @@ namespace tetmend::formats {
 /// are no part of it; where there is no such file, backslashes part folders, as on Windows.
 std::filesystem::path included_path(const std::filesystem::path& folder, std::string_view name);
 
+/// The same for all names of one file, links followed; never throws.
+std::filesystem::path place_of_included(const std::filesystem::path& path);
+
 /// What to tell of a deck whose lines name files beside it, one sentence or none.
 /// @param folder that the deck lay in; empty: no line does
 /// @param file   that is written

@@ -94,8 +94,7 @@ class Reader {
         named.scope = lines_.mesh_scopes[0];
       }
       if (!lines_.scopes[named.scope].is_mesh) return {};
-      const std::uint32_t place =
-          mesh_.elements.find(number + lines_.scopes[named.scope].element_offset);
+      const std::uint32_t place = mesh_.elements.find(lines_.scopes[named.scope].element(number));
       if (place == InpNumbers::kNone) return {};
       named.one = {place};
       return {std::move(named)};
@@ -287,8 +286,7 @@ class Reader {
     std::int64_t number = 0;
     if (!to_integer(text, number)) return;
     if (block.scope == 0 && lines_.mesh_scopes.size() > 1) return;
-    const std::uint32_t place =
-        mesh_.elements.find(number + lines_.scopes[block.scope].element_offset);
+    const std::uint32_t place = mesh_.elements.find(lines_.scopes[block.scope].element(number));
     if (place == InpNumbers::kNone || !is_tet(mesh_, place)) return;
     if (result_.notes.size() > kMostNotes) return;
     result_.notes.push_back(

@@ -252,7 +252,7 @@ void InpLines::enter(InpBlock& block) {
   if (is_part || block.keyword == "INSTANCE") {
     scope_ = scopes.size();
     const std::string_view name = block.value("NAME");
-    scopes.push_back({inp_key(name), false, 0, 0, 0, 0});
+    scopes.push_back({inp_key(name), false});
     if (!is_part) {
       instances.push_back({std::string(name), inp_key(block.value("PART")), scope_});
       if (!number_of_instance_.try_emplace(inp_key(name), instances.size()).second) {
@@ -326,6 +326,7 @@ void InpLines::place_blocks() {
 
 void InpLines::set_offsets() {
   if (mesh_scopes.size() < 2) return;
+  for (InpScope& scope : scopes) scope.most_node = scope.most_element = 0;
   for (const InpBlock& block : blocks) {
     const bool is_node = block.keyword == "NODE";
     if ((!is_node && block.keyword != "ELEMENT") || block.is_in_assembly) continue;
@@ -357,7 +358,7 @@ void InpLines::set_offsets() {
 const InputFile& InpLines::open(const std::filesystem::path& path, const InpBlock* from) {
   constexpr int kMostFiles = 10000;
   if (++inclusions_ > kMostFiles) from->fail("more than 10,000 files are included");
-  std::unique_ptr<InputFile>& file = files_[std::filesystem::weakly_canonical(path)];
+  std::unique_ptr<InputFile>& file = files_[place_of_included(path)];
   try {
     if (file == nullptr) {
       file = std::make_unique<InputFile>(path);
@@ -376,7 +377,7 @@ const InputFile& InpLines::open(const std::filesystem::path& path, const InpBloc
 }
 
 void InpLines::read(const InputFile& file, const std::filesystem::path& path, int number) {
-  const auto canonical = std::filesystem::weakly_canonical(path).native();
+  const auto canonical = place_of_included(path).native();
   open_.insert(canonical);
   const char* end = file.end();
   InpBlock block;
@@ -428,7 +429,7 @@ void InpLines::add(InpBlock block, const std::filesystem::path& path) {
   const std::string_view name = block.value("INPUT");
   if (name.empty()) block.fail("*INCLUDE names no file: expected INPUT=FILE");
   const std::filesystem::path target = included_path(path.parent_path(), name);
-  if (open_.contains(std::filesystem::weakly_canonical(target).native())) {
+  if (open_.contains(place_of_included(target).native())) {
     block.fail(fmt::format("{} includes itself: expected another file", in_quotes(name)));
   }
   const InputFile& file = open(target, &block);

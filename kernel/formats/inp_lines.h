@@ -31,8 +31,16 @@ struct InpScope {
   /// From its numbers to those of the mesh, where the scopes of the mesh follow each other.
   std::int64_t node_offset = 0;
   std::int64_t element_offset = 0;
-  std::int64_t most_node = 0;  ///< greatest numbers; known only where there are several scopes
-  std::int64_t most_element = 0;
+  std::int64_t most_node = kInpGreatestNumber;  ///< its own where there are several scopes
+  std::int64_t most_element = kInpGreatestNumber;
+
+  /// The number in the mesh of a number of this scope; 0, which nothing has: it is one of another scope.
+  std::int64_t node(std::int64_t number) const {
+    return number < 1 || number > most_node ? 0 : number + node_offset;
+  }
+  std::int64_t element(std::int64_t number) const {
+    return number < 1 || number > most_element ? 0 : number + element_offset;
+  }
 };
 
 struct InpInstance {
@@ -114,7 +122,7 @@ class InpLines {
   explicit InpLines(const std::filesystem::path& file);
 
   std::deque<InpBlock> blocks;
-  std::vector<InpScope> scopes = {{"", true, 0, 0, 0, 0}};  ///< 0: the deck itself
+  std::vector<InpScope> scopes = {{"", true}};  ///< 0: the deck itself
   std::vector<InpInstance> instances;
   /// That lines outside of parts may mean. More than one: by the name of an instance alone.
   std::vector<std::size_t> mesh_scopes;

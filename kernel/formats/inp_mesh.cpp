@@ -100,7 +100,7 @@ class Reader {
       if (elements.type.vtk_type == kVtkTet && question_ != nullptr && tets_++ == question_->tet) {
         question_->place = block.file->line_place(fields.place());
       }
-      read_vertices(fields, elements, scope.node_offset);
+      read_vertices(fields, elements, scope);
       ++elements.count;
     }
     count_ += elements.count;
@@ -108,16 +108,17 @@ class Reader {
     mesh_.blocks.push_back(std::move(elements));
   }
 
-  void read_vertices(InpFields& fields, InpElements& elements, std::int64_t offset) {
+  void read_vertices(InpFields& fields, InpElements& elements, const InpScope& scope) {
     const std::size_t width = elements.type.width;
     const std::size_t begin = elements.vertices.size();
     elements.vertices.resize(begin + width);
     std::uint32_t* vertices = elements.vertices.data() + begin;
     for (std::size_t i = 0; i < width; ++i) {
       const std::int64_t number = fields.integer("the number of a node", true);
-      const std::uint32_t vertex = mesh_.nodes.find(number + offset);
+      const std::uint32_t vertex = mesh_.nodes.find(scope.node(number));
       if (vertex == InpNumbers::kNone) {
-        fields.fail(fmt::format("'{}' is not the number of a node: expected one of *NODE", number));
+        fields.fail(fmt::format("'{}' is not the number of a node: expected one of *NODE{}", number,
+                                scope.name.empty() ? "" : " of " + in_quotes(scope.name)));
       }
       vertices[vtk_position(elements.type.vtk_type, i)] = vertex;
     }

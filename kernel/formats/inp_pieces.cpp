@@ -191,8 +191,7 @@ class Maker {
   void add_more_of_nodes(const InpBlock& block, std::string& lines) {
     const InpScope& own = in_.lines.scopes[block.scope];
     const auto& all = in_.mesh.more_of_node;
-    const bool is_alone = in_.lines.mesh_scopes.size() < 2;
-    const auto end = is_alone ? all.end() : all.upper_bound(own.node_offset + own.most_node);
+    const auto end = all.upper_bound(own.node_offset + own.most_node);
     for (auto at = all.upper_bound(own.node_offset); at != end; ++at) {
       lines += fmt::format("{}{}\n", at->first - own.node_offset, at->second);
     }

@@ -265,7 +265,7 @@ class Finder {
 
   void look_at(const InpBlock& block) {
     block_ = &block;
-    find_offsets(block.scope, block.is_of_mesh);
+    find_scopes(block.scope, block.is_of_mesh);
     for (const InpBlock::Parameter& parameter : block.parameters) {
       const bool names_node = parameter.name.find("NODE") != std::string::npos;
       look_at(parameter.value, names_node);
@@ -324,10 +324,10 @@ class Finder {
           has_instance ? lines_.find_instance(text.substr(0, dot)) : std::size_t{0};
       if (instance != 0) {
         const InpScope& scope = lines_.scopes[lines_.instances[instance - 1].scope];
-        if (scope.is_mesh) add_point(number, scope.most_node, scope.node_offset);
+        if (scope.is_mesh) add_point(number, scope);
         return;
       }
-      for (const auto& [most, offset] : offsets_) add_point(number, most, offset);
+      for (const InpScope* scope : scopes_) add_point(number, *scope);
       return;
     }
     const char c = text[0];
@@ -338,22 +338,17 @@ class Finder {
 
   /// What numbers without an instance mean: within a part its own; outside those of the only one. Where
   /// there are several they mean none of these.
-  void find_offsets(std::size_t scope, bool is_of_mesh) {
-    offsets_.clear();
-    if (scope == 0 && lines_.mesh_scopes.size() == 1) {
-      const InpScope& only = lines_.scopes[lines_.mesh_scopes[0]];
-      offsets_.emplace_back(only.most_node, only.node_offset);
-    } else if (scope == 0) {
-      return;
+  void find_scopes(std::size_t scope, bool is_of_mesh) {
+    scopes_.clear();
+    if (scope == 0) {
+      if (lines_.mesh_scopes.size() == 1) scopes_.push_back(&lines_.scopes[lines_.mesh_scopes[0]]);
     } else if (is_of_mesh) {
-      offsets_.emplace_back(lines_.scopes[scope].most_node, lines_.scopes[scope].node_offset);
+      scopes_.push_back(&lines_.scopes[scope]);
     }
   }
 
-  /// @param most  greatest number of the scope; 0: there is but one scope
-  void add_point(std::int64_t number, std::int64_t most, std::int64_t offset) {
-    if (most != 0 && (number < 1 || number > most)) return;
-    const std::uint32_t place = mesh_.nodes.find(number + offset);
+  void add_point(std::int64_t number, const InpScope& scope) {
+    const std::uint32_t place = mesh_.nodes.find(scope.node(number));
     if (place != InpNumbers::kNone) result_.points.push_back({place, block_});
   }
 
@@ -361,7 +356,7 @@ class Finder {
   const InpMesh& mesh_;
   const InpBlock* block_ = nullptr;
   bool needs_instance_ = false;
-  std::vector<std::pair<std::int64_t, std::int64_t>> offsets_;  // {most, offset}
+  std::vector<const InpScope*> scopes_;  // that numbers without an instance are of
   InpReferences result_;
 };
 

@@ -182,25 +182,28 @@ void InpSets::read(const InpBlock& block) {
 }
 
 void InpSets::read_range(InpFields& fields, const InpBlock& block, InpSet& set) {
-  const std::int64_t first = fields.integer("the first number of a range");
+  std::int64_t first = fields.integer("the first number of a range");
   const std::int64_t last = fields.more() ? fields.integer("the last number of a range") : first;
   const std::int64_t step = fields.more() ? fields.integer("the step of a range") : 1;
   if (step == 0) fields.fail("'0' is no step of a range: expected 1 or more");
   const InpScope& scope = lines_.scopes[block.scope];
   const std::int64_t offset = set.of_nodes ? scope.node_offset : scope.element_offset;
-  std::int64_t most = set.of_nodes ? scope.most_node : scope.most_element;
-  if (most == 0) most = set.of_nodes ? mesh_.nodes.most() : mesh_.most_element();
+  const std::int64_t most = set.of_nodes ? std::min(scope.most_node, mesh_.nodes.most())
+                                         : std::min(scope.most_element, mesh_.most_element());
   if (last < first || last > most) {
     fields.fail(fmt::format("'{}' is not the last number of a range: expected {} to {}", last,
                             first, most));
   }
+  if (first == 0) first = step;  // 0 is the last number of the scope before
   add_work(numbers(set).collect(first + offset, last + offset, step, set.members), block);
   if (set.of_nodes) return;
   const auto begin = std::lower_bound(mesh_.others.begin(), mesh_.others.end(), first + offset);
   const auto end = std::upper_bound(begin, mesh_.others.end(), last + offset);
   add_work(static_cast<std::size_t>(end - begin), block);
-  std::copy_if(begin, end, std::back_inserter(set.others),
-               [&](std::int64_t number) { return (number - offset - first) % step == 0; });
+  std::copy_if(begin, end, std::back_inserter(set.others), [&](std::int64_t number) {
+    return (number - offset - first) % step == 0 &&
+           mesh_.elements.find(number) == InpNumbers::kNone;
+  });
 }
 
 /// One of the same scope, and of the same instance if there is one.
@@ -216,20 +219,19 @@ const InpSet* InpSets::find_beside(const InpSet& set, bool of_nodes, std::string
 
 void InpSets::read_members(InpFields& fields, const InpBlock& block, InpSet& set) {
   const InpScope& scope = lines_.scopes[block.scope];
-  const std::int64_t offset = set.of_nodes ? scope.node_offset : scope.element_offset;
   while (fields.more()) {
     const std::string_view text = fields.field();
     if (text.empty()) continue;
     std::int64_t number = 0;
     if (to_integer(text, number)) {
-      const std::uint32_t place = numbers(set).find(number + offset);
+      const std::int64_t of_mesh = set.of_nodes ? scope.node(number) : scope.element(number);
+      const std::uint32_t place = numbers(set).find(of_mesh);
       const bool is_other =
-          !set.of_nodes &&
-          std::binary_search(mesh_.others.begin(), mesh_.others.end(), number + offset);
+          !set.of_nodes && std::binary_search(mesh_.others.begin(), mesh_.others.end(), of_mesh);
       if (place != InpNumbers::kNone) {
         set.members.push_back(place);
       } else if (is_other) {
-        set.others.push_back(number + offset);
+        set.others.push_back(of_mesh);
       } else {
         fields.fail(fmt::format("'{}' is not the number of {}: expected one of {}", number,
                                 set.of_nodes ? "a node" : "an element",

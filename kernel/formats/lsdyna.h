@@ -28,7 +28,7 @@ enum LsDynaPiece : char {
   lsdyna_elements = 'E',  ///< all solids; likewise
   lsdyna_set = 'S',  ///< a set of solids: its number in `groups`, then its lines up to the members
   lsdyna_node_set = 'M',  ///< a set of nodes, likewise
-  lsdyna_point = 'P'      ///< a node that says more than its place, word for word; at the end
+  lsdyna_point = 'P'  ///< a node that says more than its place: its number, its line; at the end
 };
 
 /// Characters of a field of *NODE and *ELEMENT.

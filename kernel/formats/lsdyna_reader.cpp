@@ -228,7 +228,7 @@ class LsDynaReader {
         if (nastran_real(field(k), value) && value != 0) constraint = value;
       }
       if (constraint == 0) continue;
-      points_of_deck_.push_back(lines_of(line));
+      points_of_deck_.push_back(fmt::format("{}\n{}", mesh_.point_numbers.back(), lines_of(line)));
       held_.push_back(mesh_.point_numbers.back());
     }
   }

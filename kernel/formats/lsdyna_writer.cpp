@@ -23,7 +23,8 @@
 namespace tetmend::formats {
 namespace {
 
-constexpr std::size_t kFieldsOfCard = 8;  // of sets, ten characters each
+constexpr std::size_t kFieldsOfCard = 8;  // of sets
+constexpr std::size_t kCardWidth = 10;    // of such a field
 constexpr std::string_view kSpaces = "                    ";
 
 constexpr std::array<std::int64_t, 3> kNumberLimits = {99'999'999, INT32_MAX, INT64_MAX};
@@ -92,6 +93,10 @@ class LsDynaWriter {
         points_(written_point_numbers(mesh, kNumberLimits)),
         elements_(written_element_numbers(lists_, kNumberLimits)),
         members_(members_of_groups(mesh, lists_)) {
+    for (const std::int64_t number : points_) most_ = std::max(most_, number);
+    for (const std::vector<std::int64_t>& numbers : elements_) {
+      for (const std::int64_t number : numbers) most_ = std::max(most_, number);
+    }
     const MeshData* data = mesh.data();
     if (data == nullptr || data->variant != kLsDyna || data->deck.size() < kLsDynaPieces) return;
     deck_ = &data->deck;
@@ -111,7 +116,7 @@ class LsDynaWriter {
       write_new();
     } else {
       for (const std::string& piece : *deck_) {
-        if (piece.starts_with(lsdyna_point)) keep_point(piece.substr(1));
+        if (piece.starts_with(lsdyna_point)) keep_point(std::string_view(piece).substr(1));
       }
       for (std::size_t i = kLsDynaPieces; i < deck_->size(); ++i) write_piece((*deck_)[i]);
     }
@@ -119,14 +124,11 @@ class LsDynaWriter {
   }
 
  private:
-  void keep_point(std::string line) {
-    const std::string_view text = line;
-    const std::size_t comma = text.find(',');
+  void keep_point(std::string_view text) {
+    const std::size_t line = text.find('\n') + 1;
     std::int64_t number = 0;
-    const std::string_view first =
-        trimmed_field(text.substr(0, comma == std::string_view::npos ? widths_.integer : comma));
-    if (nastran_integer(first.substr(0, first.find(' ')), number)) {
-      points_of_deck_.emplace(number, std::move(line));
+    if (nastran_integer(text.substr(0, line - 1), number)) {
+      points_of_deck_.emplace(number, text.substr(line));
     }
   }
 
@@ -153,14 +155,33 @@ class LsDynaWriter {
     }
   }
 
-  void put_field(OutputBuffer& buffer, std::string_view text, std::size_t width) const {
-    if (text.size() < width) buffer.put(kSpaces.substr(0, width - text.size()));
-    buffer.put(text);
-  }
-  void put_field(OutputBuffer& buffer, std::int64_t number, std::size_t width) const {
-    const fmt::format_int text(number);
-    put_field(buffer, std::string_view(text.data(), text.size()), width);
-  }
+  /// Fields of one line: of fixed width, or with commas, where a number is wider than its field.
+  struct Line {
+    OutputBuffer& buffer;
+    bool is_free = false;
+    bool is_first = true;
+
+    void put(std::string_view text, std::size_t width) {
+      if (is_free) {
+        if (!is_first) buffer.put(',');
+      } else if (text.size() < width) {
+        buffer.put(kSpaces.substr(0, width - text.size()));
+      }
+      buffer.put(text);
+      is_first = false;
+    }
+    void put(std::int64_t number, std::size_t width) {
+      const fmt::format_int text(number);
+      put(std::string_view(text.data(), text.size()), width);
+    }
+    void end() {
+      buffer.put('\n');
+      is_first = true;
+    }
+  };
+
+  /// Do all numbers of the mesh fit?
+  bool fits(std::size_t width) const { return fmt::format_int(most_).size() <= width; }
 
   void write_nodes(std::string_view comments) {
     out_.put("*NODE\n");
@@ -168,11 +189,12 @@ class LsDynaWriter {
     put_rows(out_, mesh_.point_count(), [this](std::size_t i, OutputBuffer& buffer) {
       const auto whole = points_of_deck_.find(points_[i]);
       if (whole != points_of_deck_.end()) return buffer.put(whole->second);
-      put_field(buffer, points_[i], widths_.integer);
+      Line line{buffer, !fits(widths_.integer)};
+      line.put(points_[i], widths_.integer);
       for (int axis = 0; axis < 3; ++axis) {
-        put_field(buffer, real_in_room(mesh_.point(i)[axis], widths_.real), widths_.real);
+        line.put(real_in_room(mesh_.point(i)[axis], widths_.real), widths_.real);
       }
-      buffer.put('\n');
+      line.end();
     });
   }
 
@@ -196,16 +218,16 @@ class LsDynaWriter {
 
   void put_solid(OutputBuffer& buffer, std::size_t k, std::size_t i) const {
     const ElementList& list = lists_.all()[k];
-    put_field(buffer, elements_[k][i], widths_.integer);
-    put_field(buffer, part_of_.at(list.label(i)), widths_.integer);
+    Line line{buffer, !fits(widths_.integer)};
+    line.put(elements_[k][i], widths_.integer);
+    line.put(part_of_.at(list.label(i)), widths_.integer);
     const std::uint8_t* order = order_of_solid(list.kind.vtk_type);
-    if (order == nullptr) buffer.put('\n');
+    if (order == nullptr) line.end();
     const std::size_t nodes = order == nullptr ? list.kind.width : kLsDynaHexahedron.size();
     for (std::size_t n = 0; n < nodes; ++n) {
-      put_field(buffer, points_[list.vertices(i)[order == nullptr ? n : order[n]]],
-                widths_.integer);
+      line.put(points_[list.vertices(i)[order == nullptr ? n : order[n]]], widths_.integer);
     }
-    buffer.put('\n');
+    line.end();
   }
 
   /// Ten characters each, eight a line.
@@ -214,10 +236,11 @@ class LsDynaWriter {
     put_rows(out_, (count + kFieldsOfCard - 1) / kFieldsOfCard,
              [&](std::size_t row, OutputBuffer& buffer) {
                const std::size_t end = std::min(count, (row + 1) * kFieldsOfCard);
+               Line line{buffer, !fits(kCardWidth)};
                for (std::size_t i = row * kFieldsOfCard; i < end; ++i) {
-                 put_field(buffer, number(i), 10);
+                 line.put(number(i), kCardWidth);
                }
-               buffer.put('\n');
+               line.end();
              });
   }
 
@@ -340,10 +363,11 @@ class LsDynaWriter {
     put_rows(out_, members.size(), [&](std::size_t i, OutputBuffer& buffer) {
       const ElementList& list = lists_.all()[members[i].list];
       const auto v = list.vertices(members[i].index).first(list.kind.corners);
+      Line line{buffer, !fits(kCardWidth)};
       for (std::size_t n = 0; n < 4; ++n) {
-        put_field(buffer, points_[v[std::min(n, v.size() - 1)]], 10);
+        line.put(points_[v[std::min(n, v.size() - 1)]], kCardWidth);
       }
-      buffer.put('\n');
+      line.end();
     });
   }
 
@@ -353,6 +377,7 @@ class LsDynaWriter {
   std::vector<std::int64_t> points_;                 // their numbers
   std::vector<std::vector<std::int64_t>> elements_;  // of each list
   std::vector<GroupMembers> members_;
+  std::int64_t most_ = 0;                           // number of a point or an element
   const std::vector<std::string>* deck_ = nullptr;  // null: not ours
   LsDynaWidths widths_;
   std::map<std::int64_t, std::string> points_of_deck_;     // word for word

@@ -225,6 +225,15 @@ std::string format_extension(const std::filesystem::path& file) {
   return extension;
 }
 
+/// Of first or second order.
+bool has_tets(const MeshData& mesh) {
+  return !mesh.tets.empty() ||
+         std::any_of(mesh.other_elements.begin(), mesh.other_elements.end(),
+                     [](const OtherElements& others) {
+                       return others.vtk_type == formats::vtk_tet10 && !others.labels.empty();
+                     });
+}
+
 /// Nobody packs several files one by one.
 const Codec& find_codec(const std::filesystem::path& file) {
   const bool is_packed = formats::has_packed_name(file);
@@ -260,12 +269,16 @@ std::span<const MeshFormat> mesh_formats() {
 MeshData read_mesh(const std::filesystem::path& file, const std::string& label_array) {
   try {
     MeshData mesh = find_codec(file).read(file, {nullptr, label_array});
-    formats::drop_degenerate(mesh, [&](int dimension, std::size_t number) {
+    const auto dropped = formats::drop_degenerate(mesh, [&](int dimension, std::size_t number) {
       formats::TetPlace question{number, {}, dimension};
       if (formats::is_standard_stream(file)) return question.place;  // it is read once
       find_codec(file).read(file, {&question, label_array});
       return question.place;
     });
+    if (!dropped.empty() && !has_tets(mesh)) {
+      throw Error(
+          fmt::format("{}: no tet is left: each of them has a vertex twice", file.string()));
+    }
     try {
       take_second_order(mesh);
     } catch (const Error& error) {

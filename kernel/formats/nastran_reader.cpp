@@ -310,9 +310,11 @@ class Reader {
     }
     row_.place = card_.text.data();
     row_.number = integer(0, "the number of an element", 1, INT64_MAX);
-    row_.label = card_.field(1).empty()
-                     ? 0
-                     : static_cast<Label>(integer(1, "the number of a property", 0, INT32_MAX));
+    row_.label = 0;
+    if (!card_.field(1).empty()) {
+      row_.label = static_cast<Label>(integer(1, "the number of a property", 0, INT32_MAX));
+      if (row_.label == 0) mesh_.deck[nastran_zero] = "0";
+    }
     if (is_volume && !is_blank(2 + nodes)) {
       fail(card_.field(2 + nodes),
            fmt::format("{} has more than {} points: expected none of higher order", card_.name,

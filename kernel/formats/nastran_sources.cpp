@@ -93,8 +93,7 @@ NastranSources::Bulk NastranSources::find_bulk(const InputFile& file) {
 /// A file that is included again is not read again.
 const InputFile* NastranSources::open(const std::filesystem::path& path,
                                       std::string_view statement) {
-  const auto [at, is_new] =
-      number_of_.try_emplace(std::filesystem::weakly_canonical(path), files_.size());
+  const auto [at, is_new] = number_of_.try_emplace(place_of_included(path), files_.size());
   if (is_new) {
     try {
       auto file = std::make_unique<InputFile>(path);
@@ -114,7 +113,7 @@ const InputFile* NastranSources::open(const std::filesystem::path& path,
 
 void NastranSources::read(const Bulk& bulk, const std::filesystem::path& path,
                           std::size_t inclusion) {
-  const std::filesystem::path canonical = std::filesystem::weakly_canonical(path);
+  const std::filesystem::path canonical = place_of_included(path);
   open_.insert(canonical);
   NastranLines lines(bulk.may_include ? bulk.begin : bulk.end, bulk.end);
   const char* begin = bulk.begin;
@@ -149,7 +148,7 @@ void NastranSources::include(std::string_view statement, const std::filesystem::
   const auto fail = [&](std::string_view reason) {
     file_of(statement.data()).fail_at_line(statement.data(), reason);
   };
-  if (open_.contains(std::filesystem::weakly_canonical(path))) {
+  if (open_.contains(place_of_included(path))) {
     fail(fmt::format("{} includes itself: expected another file",
                      in_quotes(trimmed_field(statement))));
   }

@@ -378,7 +378,11 @@ class Writer {
       buffer.put_integer(number);
       buffer.put(',');
       const Label label = list.label(i);
-      if (label != 0 || !was_deck_) buffer.put_integer(label > 0 ? label : properties_.at(label));
+      if (label != 0 || !was_deck_) {
+        buffer.put_integer(label > 0 ? label : properties_.at(label));
+      } else if (deck_ != nullptr) {
+        buffer.put((*deck_)[nastran_zero]);
+      }
       put_nodes(buffer, list, i);
       buffer.put('\n');
     });

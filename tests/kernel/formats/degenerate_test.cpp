@@ -161,3 +161,13 @@ TEST_CASE("where a tet of second order stands in the file counts those that were
   };
   CHECK(line(locate_tet(folder / "a.msh", 1)) == line(locate_tet(folder / "a.msh", 0)) + 2);
 }
+
+TEST_CASE("a file all of whose tets have a vertex twice is refused") {
+  const TempFolder folder;
+  write_text(folder / "a.msh",
+             "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n3\n1 0 0 0\n2 1 0 0\n3 0 1 0\n"
+             "$EndNodes\n$Elements\n1\n1 4 2 1 1 1 2 3 3\n$EndElements\n");
+  CHECK(
+      error_of_reading(folder / "a.msh").find("no tet is left: each of them has a vertex twice") !=
+      std::string::npos);
+}

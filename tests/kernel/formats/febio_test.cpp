@@ -126,6 +126,18 @@ TEST_CASE("second order of FEBio is kept") {
   CHECK(read_mesh(folder / "b.feb").mid_nodes == mesh.mid_nodes);
 }
 
+TEST_CASE("two blocks of FEBio with one label, and the end of one in a comment, are written once") {
+  const TempFolder folder;
+  std::string text = altered(model_text(), "\"Part1\"", "\"Label_4\"");
+  text = altered(text, "\"Part &gt;2\"", "\"Label_4\"");
+  text = altered(text, "\t\t\t<elem id=\"1\"", "<!-- not </Elements> yet -->\t\t\t<elem id=\"1\"");
+  const MeshData mesh = read_model(folder, text);
+  write_mesh(folder / "b.feb", mesh);
+  const MeshData again = read_mesh(folder / "b.feb");
+  CHECK(same_mesh(again, mesh));
+  CHECK(again.tet_numbers == mesh.tet_numbers);
+}
+
 TEST_CASE("a tet of a model of FEBio is located by its line") {
   const TempFolder folder;
   write_text(folder / "a.feb", model_text());
@@ -154,6 +166,8 @@ TEST_CASE("a bad model of FEBio is refused with line and reason") {
       {"node", altered(good, "2,3,7,9", "2,3,7,8"), "18: ", "'8' is not the id of a node"},
       {"few", altered(good, "2,3,7,9", "2,3,7"), "18: ", "the element has 3 nodes: expected 4"},
       {"order", altered(good, "\"tet4\"", "\"tet15\""), "15: ", "expected none of higher order"},
+      {"nested", altered(good, "2,3,7,9", "2,3,7,9<elem id=\"6\">1,2,3,9</elem>"),
+       "18: ", "<elem> holds another element of XML: expected numbers alone"},
       {"element twice", altered(good, "elem id=\"5\"", "elem id=\"1\""),
        "18: ", "the id '1' of an element appears for the second time"},
   };

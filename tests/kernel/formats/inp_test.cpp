@@ -755,6 +755,36 @@ TEST_CASE("several parts have numbers and sets of their own, and so have their n
   CHECK(written.find("1, 1, 2, 3, 9\n2, 2, 3, 9, 10\n*Elset") != std::string::npos);
 }
 
+TEST_CASE("numbers of one part mean nothing in another, however they follow each other") {
+  const TempFolder folder;
+  const std::string other =
+      std::string(kNodes) + std::string(kElements) + "*Elset, elset=Set-1, generate\n1, 1, 1\n";
+  const auto deck = [&](std::string_view first, std::string_view second) {
+    return part("P", first) + part("Q", second) + "*Assembly, name=A\n" + instance("P-1", "P") +
+           instance("Q-1", "Q") + "*End Assembly\n";
+  };
+  const auto error = [&](std::string_view first, std::string_view second) {
+    write_text(folder / "a.inp", deck(first, second));
+    return error_of_reading(folder / "a.inp");
+  };
+  CHECK(error(other, replaced(other, "1, 1, 2, 3, 4", "1, 0, 2, 3, 4"))
+            .find("'0' is not the number of a node: expected one of *NODE of 'Q'") !=
+        std::string::npos);
+  CHECK(error(replaced(other, "1, 1, 2, 3, 4", "1, 1, 2, 3, 5"), other).find("'5' is not") !=
+        std::string::npos);
+  // A part whose nodes are missing.
+  CHECK(error(kElements, other).find("'1' is not the number of a node") != std::string::npos);
+  CHECK(error(other, replaced(other, "generate\n1, 1, 1", "generate\n0, 2, 1"))
+            .find("'2' is not the last number of a range") != std::string::npos);
+  const MeshData mesh =
+      read_text(folder, deck(other, replaced(other, "generate\n1, 1, 1", "generate\n0, 1, 1")));
+  write_mesh(folder / "b.inp", mesh);
+  const std::string written = test::read_text(folder / "b.inp");
+  const std::size_t first = written.find("elset=Set-1\n1,\n");
+  REQUIRE(first != std::string::npos);
+  CHECK(written.find("elset=Set-1\n1,\n", first + 1) != std::string::npos);
+}
+
 TEST_CASE(
     "a part that is used twice is in the mesh once, and surfaces say which instance they are of") {
   const TempFolder folder;

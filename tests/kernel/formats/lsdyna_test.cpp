@@ -220,6 +220,35 @@ TEST_CASE("wide fields of LS-DYNA are read and written") {
   CHECK(read_mesh(folder / "b.k").point_numbers == mesh.point_numbers);
 }
 
+TEST_CASE("numbers of LS-DYNA that are wider than their fields are written between commas") {
+  const TempFolder folder;
+  const std::string text =
+      "*KEYWORD\n*NODE\n1,0,0,0\n2,1,0,0\n3,0,1,0\n12345678901,0,0,1\n"
+      "*ELEMENT_SOLID\n2147483648,1,1,2,3,12345678901,12345678901,12345678901,12345678901,"
+      "12345678901\n*SET_NODE\n5\n1,12345678901\n*END\n";
+  const MeshData mesh = read_deck(folder, text);
+  REQUIRE(mesh.tets.size() == 1);
+  write_mesh(folder / "b.k", mesh);
+  const MeshData again = read_mesh(folder / "b.k");
+  CHECK(same_mesh(again, mesh));
+  CHECK(again.point_numbers == mesh.point_numbers);
+  CHECK(again.tet_numbers == mesh.tet_numbers);
+  CHECK(again.groups == mesh.groups);
+}
+
+TEST_CASE("a node of LS-DYNA that is held comes back where its line is no line of fixed fields") {
+  const TempFolder folder;
+  const std::string text = edited(
+      deck_text(), "      14             0.0             0.0         1.5D-01       7       0\n",
+      "      14 0.0  0.0 0.15 7 0\n     120 9. 9. 9. 7 0\n");
+  const MeshData mesh = read_deck(folder, text);
+  REQUIRE(mesh.points.size() == 6);
+  write_mesh(folder / "b.k", mesh);
+  const MeshData again = read_mesh(folder / "b.k");
+  CHECK(again.points == mesh.points);
+  CHECK(again.point_numbers == mesh.point_numbers);
+}
+
 TEST_CASE("a tet of a deck of LS-DYNA is located by its line") {
   const TempFolder folder;
   write_text(folder / "a.k", deck_text());

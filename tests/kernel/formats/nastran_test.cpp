@@ -107,6 +107,7 @@ TEST_CASE("what is no mesh in a deck of Nastran stays word for word, and its poi
       "ENDDATA\n$ behind\n",
       "GRID,50,,1,0,0,2\n",
       "CTRIA3  15      4       10      20      40      45.\n",
+      "",
       ""};
   CHECK(deck_of(mesh) == deck);
   // 60 to 80 for SPC1, 90 for FORCE. The coordinates of 50 are no constraint.
@@ -640,4 +641,20 @@ TEST_CASE("a bad deck of Nastran is refused with line and reason") {
     CHECK_MESSAGE(error.starts_with("a.bdf:" + bad.place), error);
     CHECK_MESSAGE(error.find(bad.reason) != std::string::npos, error);
   }
+}
+
+TEST_CASE("elements of property 0 keep it, which a blank field is not") {
+  const TempFolder folder;
+  const MeshData mesh = read(folder, replaced(text(), "CTETRA,5,,20", "CTETRA,3,0,20"));
+  write_mesh(folder / "b.bdf", mesh);
+  CHECK(read_text(folder / "b.bdf").find("\nCTETRA,3,0,20,") != std::string::npos);
+  CHECK(same_mesh(read_mesh(folder / "b.bdf"), mesh));
+}
+
+TEST_CASE("the name of an included file that is too long for any is a file that is not there") {
+  const TempFolder folder;
+  const MeshData mesh =
+      read(folder, replaced(text(), "FORCE ", "INCLUDE '" + std::string(5000, 'x') + "'\nFORCE "));
+  REQUIRE(!mesh.notes.empty());
+  CHECK(mesh.notes[0].find("includes is not read") != std::string::npos);
 }
