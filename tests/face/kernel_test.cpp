@@ -9,6 +9,7 @@
 #include <ranges>
 #include <set>
 #include <string>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -329,6 +330,80 @@ TEST_CASE("random edits that are undone leave mesh and properties of three types
   CHECK(made > 300);
   CHECK(mesh.check().empty());
   CHECK(tetmend::measure(mesh.to_mesh()).statistics.inverted == 0);
+}
+
+TEST_CASE("a million random edits, undone or kept, leave a sound mesh and properties in step") {
+  constexpr std::size_t kEdits = 1'000'000;
+  TetMesh mesh = ball(40);
+  auto number = mesh.tet_property<int>("number", -1);
+  auto name = mesh.tet_property<std::string>("name", "new", NewTets::inherited);
+  auto sum = mesh.tet_property<double>(
+      "sum", 0, [](std::span<const double> old, TetHandle) { return old[0] + 1; });
+  for (const TetHandle t : mesh.tets()) {
+    number[t] = static_cast<int>(t.index());
+    name[t] = "a name that is too long to lie in the string itself";
+  }
+  const std::string inherited = name[*mesh.tets().begin()];
+  std::mt19937 random(11);
+  std::size_t attempts = 0, made = 0;
+  for (std::size_t round = 0; attempts < kEdits; ++round) {
+    {
+      Transaction edit(mesh);
+      for (int i = 0; i < 5; ++i, ++attempts) {
+        made += any_edit(mesh, edit, random) == EditResult::made ? 1 : 0;
+        if (i == 2 && random() % 4 == 0) edit.undo();
+      }
+      // The mesh stays as small as it is: growth is undone.
+      if (mesh.tet_count() < 400 && random() % 2 == 0) edit.keep();
+    }
+    if (round % 20 == 19 && !mesh.check().empty()) FAIL("broken after attempt ", attempts);
+    if (round % 5000 == 4999) mesh.collect_garbage();
+  }
+  CHECK(made > kEdits / 20);
+  REQUIRE(mesh.check().empty());
+  std::size_t kept = 0;
+  for (const TetHandle t : mesh.tets()) {
+    // A tet that nothing has replaced has all that it had; one that was made has what its rules say.
+    CHECK((number[t] == -1) == (sum[t] > 0));
+    CHECK(name[t] == inherited);
+    kept += number[t] == -1 ? 0 : 1;
+  }
+  MESSAGE(made, " edits, ", kept, " tets of the start left of ", mesh.tet_count());
+}
+
+TEST_CASE("many threads may walk a mesh at the same time") {
+  const TetMesh mesh = ball(600);
+  const auto walk = [&mesh] {
+    std::size_t sum = 0;
+    for (const VertexHandle v : mesh.vertices()) {
+      sum += mesh.star(v).size() + mesh.link(v).size() + mesh.one_ring(v).size();
+      sum += mesh.is_boundary(v) || mesh.is_fixed(v) ? 1 : 0;
+    }
+    for (const TetEdge e : mesh.edges()) {
+      const Ring ring = mesh.ring(e);
+      sum += ring.tets.size() + ring.vertices.size();
+      sum += mesh.find_edge(ring.a, ring.b) ? 1 : 0;
+    }
+    for (const HalfFace f : mesh.faces()) {
+      const auto [a, b, c] = mesh.vertices(f);
+      sum += mesh.find_face(a, b, c) ? 1 : 0;
+    }
+    for (const TetHandle t : mesh.tets()) {
+      const TetVertices& v = mesh.vertices(t);
+      sum += mesh.find_tet(v[0], v[1], v[2], v[3]) ? mesh.neighbours(t).size() : 0;
+      sum += mesh.quality(t) > 0 ? 1 : 0;
+    }
+    return sum + mesh.one_rings().values.size() + mesh.stars().values.size() + mesh.check().size() +
+           mesh.to_mesh().tet_count();
+  };
+  const std::size_t expected = walk();
+  std::array<std::size_t, 4> sums{};
+  {
+    std::vector<std::thread> threads;
+    for (std::size_t& sum : sums) threads.emplace_back([&] { sum = walk(); });
+    for (std::thread& thread : threads) thread.join();
+  }
+  for (const std::size_t sum : sums) CHECK(sum == expected);
 }
 
 TEST_CASE("new tets get the initial value, that of an old tet, or what a function says") {
