@@ -243,7 +243,8 @@ void TetMesh::write_points(double* first, std::ptrdiff_t stride) const {
 }
 
 void TetMesh::refuse_open(std::string_view what) {
-  throw Error(fmt::format("{} while a transaction is open", what));
+  throw Error(
+      fmt::format("{} while a transaction is open: it ends with its scope, kept or not", what));
 }
 
 void TetMesh::refuse_unknown(std::string_view what, std::string_view kind, std::uint32_t number,

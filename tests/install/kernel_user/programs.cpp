@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include <tetmend/improve.h>
 #include <tetmend/kernel.h>
 #include <tetmend/measure.h>
 #include <tetmend/operators.h>
@@ -186,6 +187,15 @@ Operators own_operators() {
   return own;
 }
 
+tetmend::Result improve_by_aspect(Mesh& mesh) {
+  Operators own = own_operators();
+  own.add_measure(
+      {"aspect", 0.3, [](const Point& a, const Point& b, const Point& c, const Point& d) {
+         return aspect({a, b, c, d});
+       }});
+  return tetmend::improve(mesh, {.operators = &own, .measure = "aspect"});
+}
+
 QualityIndicators improve_by_rounds(TetMesh& mesh) {
   const Operators own = own_operators();
   Run run(mesh, {.threads = 4, .operators = &own});
@@ -236,6 +246,14 @@ int main(int argc, char** argv) {
   for (TetEdge e : mesh.edges()) accepted += attempt(mesh, own, "my_flip", e).accepted() ? 1 : 0;
   expect(accepted > 0, "an operator of the program makes fewer tets of more");
   expect(mesh.check().empty(), "the mesh is sound after all that");
+  Mesh by_aspect = file;
+  const auto flat = [](const Mesh& of) {
+    const auto bins = histogram(TetMesh(of));
+    return bins[0] + bins[1] + bins[2];  // below 0.3
+  };
+  expect(improve_by_aspect(by_aspect).after.tets > 0, "improve() takes a measure of the program");
+  std::printf("%zu tets below an aspect of 0.3, %zu after\n", flat(file), flat(by_aspect));
+  expect(flat(by_aspect) < flat(file), "there are fewer tets that the measure calls bad");
   expect(tetmend::measure(mesh.to_mesh()).statistics.inverted == 0, "no tet is inverted");
   return 0;
 }
