@@ -43,6 +43,25 @@ void look_around(const TetMesh& mesh, TetEdge e) {
               std::distance(boundary.begin(), boundary.end()));
 }
 
+std::size_t count_sharp_edges(TetMesh& mesh) {
+  auto sharp = mesh.vertex_property<int>("sharp");
+  const auto normal = [&](VertexHandle a, VertexHandle b, VertexHandle c) -> Point {
+    return (mesh.point(b) - mesh.point(a)).cross(mesh.point(c) - mesh.point(a)).normalized();
+  };
+  std::size_t count = 0;
+  for (TetEdge e : mesh.edges()) {
+    const Ring ring = mesh.ring(e);
+    if (ring.closed) continue;  // inside the mesh
+    const auto [a, b] = mesh.vertices(e);
+    const Point first = normal(b, a, ring.vertices.front());
+    if (first.dot(normal(a, b, ring.vertices.back())) > 0.7) continue;
+    ++count;
+    ++sharp[a];
+    ++sharp[b];
+  }
+  return count;
+}
+
 std::size_t count_new(TetMesh& mesh) {
   auto age = mesh.tet_property<int>("age");
   for (TetHandle t : mesh.tets()) age[t] = 7;
@@ -228,6 +247,7 @@ int main(int argc, char** argv) {
   for (std::size_t bin : histogram(mesh)) binned += bin;
   expect(binned == mesh.tet_count(), "(a) each tet is in a bin");
   look_around(mesh, *mesh.edges().begin());
+  std::printf("%zu sharp edges\n", count_sharp_edges(mesh));
   expect(count_new(mesh) > 0, "(c) edge removal makes tets");
   smooth(mesh);
   std::printf("%zu edges flipped away\n", flip_edges_away(mesh));
