@@ -164,15 +164,15 @@ void write_extract(const TraceOptions& options, const TraceFile& file) {
   std::error_code failed;
   std::filesystem::create_directories(options.output, failed);
   write_mesh(options.output / kExtracted[0], kit.mesh);
-  write_text(options.output / kExtracted[1],
-             fmt::format("-- Call {} of {}: {} -> {}\n"
-                         "goal{{min = {}, max = {}}}\njudge_by{{measure = \"{}\", price = {}}}\n"
-                         "attempt({}, {{{}}}{})\n",
-                         kit.call, name_of(options.file), describe_call(file, kit.call),
-                         call.verdict_text(), goal.min_angle, goal.max_angle,
-                         to_string(kit.standard.terms()), kit.standard.price(), script,
-                         fmt::join(kit.target, ", "),
-                         kit.tet.empty() ? "" : fmt::format(", {{{}}}", fmt::join(kit.tet, ", "))));
+  write_text(
+      options.output / kExtracted[1],
+      fmt::format("-- Call {} of {}: {} -> {}\n"
+                  "goal{{min = {}, max = {}}}\njudge_by{{measure = \"{}\", price = {}}}\n"
+                  "attempt({}, {{{}}}{})\n",
+                  kit.call, name_of(options.file), describe_call(file, kit.call),
+                  call.verdict_text(), goal.min_angle, goal.max_angle, kit.standard.measure_name(),
+                  kit.standard.price(), script, fmt::join(kit.target, ", "),
+                  kit.tet.empty() ? "" : fmt::format(", {{{}}}", fmt::join(kit.tet, ", "))));
   write_text(options.output / kExtracted[2],
              fmt::format("Repeats call {} of a run of {}\n\n"
                          "  tetmend improve call.mesh -o out.mesh --schedule call.lua --layers "

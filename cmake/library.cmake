@@ -33,7 +33,7 @@ if(BUILD_SHARED_LIBS)
     target_link_options(tetmend_library PRIVATE -Wl,--no-undefined)  # sanitizers are in the program
   endif()
   set_target_properties(tetmend_library PROPERTIES
-    VERSION ${PROJECT_VERSION} SOVERSION 0 LINK_DEPENDS ${PROJECT_SOURCE_DIR}/cmake/exports.map)
+    VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR} LINK_DEPENDS ${PROJECT_SOURCE_DIR}/cmake/exports.map)
 endif()
 
 # What a program must link besides, where the library is installed as a static one: names for the linker. Of a library that

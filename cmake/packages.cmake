@@ -1,4 +1,4 @@
-# Debian packages, by cpack: tetmend, tetmend-viewer, tetmend-mpi, libtetmend0, libtetmend-dev, python3-tetmend. script/package makes them
+# Debian packages, by cpack: tetmend, tetmend-viewer, tetmend-mpi, libtetmend0.1, libtetmend-dev, python3-tetmend. script/package makes them
 # of a build of its own, whose folders are Debian's. What else a package of Debian has, packaging/debian/ adds.
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME tetmend)
@@ -47,9 +47,9 @@ endmacro()
 set(CPACK_COMPONENTS_ALL "")
 set(surface_stays "It removes slivers and raises the worst dihedral angles, while surface, labels\nand constraints stay exactly as they are.")
 if(BUILD_SHARED_LIBS)
-  tetmend_package(library libtetmend0 libs "improvement of tetrahedral meshes - library"
+  tetmend_package(library libtetmend0.1 libs "improvement of tetrahedral meshes - library"
     "libtetmend improves tetrahedral meshes.\n${surface_stays}\n\nThis package has the shared library.")
-  set(library_itself "libtetmend0 (= ${version})")
+  set(library_itself "libtetmend0.1 (= ${version})")
 endif()
 tetmend_package(development libtetmend-dev libdevel "improvement of tetrahedral meshes - development files"
   "libtetmend improves tetrahedral meshes.\n${surface_stays}\n\nThis package has the headers for C++ and C, a module for Fortran, and what\nCMake and pkg-config need to find the library. Operators of one's own need\nEigen as well: libeigen3-dev."

@@ -103,13 +103,13 @@ TetMesh with_other_points_beyond(const TetMesh& start, double bound) {
   Workspace workspace(mesh);
   for (const VertexHandle v : live_vertices(mesh)) {
     if (mesh.is_fixed(v) || !mesh.tet_of(v).is_valid()) continue;
-    const auto ring = one_ring(mesh, v, workspace);
+    const auto ring = one_ring(mesh, v);
     const auto is_beyond = [&](VertexHandle w) { return !(mesh.point(w).x() < bound); };
     if (!is_beyond(v) || !std::all_of(ring.begin(), ring.end(), is_beyond)) continue;
     const Point moved = mesh.point(v) + 0.1 * (mesh.point(ring[0]) - mesh.point(v));
     if (moved.x() < bound) continue;
     Transaction transaction(mesh, workspace);
-    if (transaction.move_vertex(v, moved, link(mesh, v, workspace)) == EditResult::made) {
+    if (transaction.move_vertex(v, moved, link(mesh, v)) == EditResult::made) {
       transaction.keep();
     }
   }

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <tbb/global_control.h>
 #include <tbb/task_arena.h>
+#include <tetmend/improve.h>
 
 #include "kernel/error.h"
 
@@ -16,6 +17,12 @@ inline void check_threads(int threads) {
   constexpr int kMost = 1024;
   if (threads >= 1 && threads <= kMost) return;
   throw OptionError("threads", fmt::format("threads: {} is outside 1 to {}", threads, kMost));
+}
+
+/// One where operators of the program are called, which may be no functions for several threads.
+inline int threads_of(const Options& options) {
+  check_threads(options.threads);
+  return options.operators == nullptr ? options.threads : 1;
 }
 
 /// In an arena of its own, whatever arena the caller is in. No more threads than the machine has, or

@@ -10,7 +10,6 @@
 #include "kernel/from_chars.h"
 #include "kernel/grouped.h"
 #include "kernel/star.h"
-#include "kernel/workspace.h"
 
 namespace tetmend::face {
 
@@ -27,8 +26,8 @@ std::optional<Number> read_whole(std::string_view text) {
 }
 
 /// Mean length of the edges at a vertex.
-double local_length(const TetMesh& mesh, VertexHandle v, Workspace& workspace) {
-  const auto ring = one_ring(mesh, v, workspace);
+double local_length(const TetMesh& mesh, VertexHandle v) {
+  const auto ring = one_ring(mesh, v);
   double sum = 0;
   for (const VertexHandle other : ring) sum += (mesh.point(other) - mesh.point(v)).norm();
   return ring.empty() ? 0 : sum / static_cast<double>(ring.size());
@@ -110,17 +109,15 @@ LocalLengths LocalLengths::renewed(const TetMesh& mesh) const {
 template <class NumberOf>
 void LocalLengths::measure(const TetMesh& mesh, const NumberOf& number_of) {
   constexpr std::size_t kVerticesOfChunk = 4096;
-  const Workspace first(mesh);
   for_chunks(
       mesh.vertex_slots(),
       [&](std::size_t begin, std::size_t end) {
-        Workspace workspace = Workspace::without_slots(first);
         for (std::size_t i = begin; i < end; ++i) {
           const VertexHandle v(static_cast<std::uint32_t>(i));
           if (mesh.is_deleted(v)) continue;
           const std::optional<std::uint64_t> number = number_of(v);
           if (!number || *number % step_ != 0) continue;
-          lengths_[*number / step_] = mesh.scale().to_file(local_length(mesh, v, workspace));
+          lengths_[*number / step_] = mesh.scale().to_file(local_length(mesh, v));
         }
       },
       kVerticesOfChunk);

@@ -319,7 +319,7 @@ void Improvement::run_schedule(std::size_t passes, double seconds) {
   mesh_.renew_surface();
   // A script may aim higher for a while, and be stopped then.
   const Standard& last = mesh_.standard();
-  run.set_standard(Standard(options_.goal, last.terms(), last.price()));
+  run.set_standard(last.with_goal(options_.goal));
   watcher_.watch(nullptr, quality_indicators(mesh_));
   if (passes == kAllPasses) {
     result_.ending = run.out_of_time() ? Ending::time_limit
@@ -661,7 +661,7 @@ Result face::improve(Mesh& mesh, const Options& options, std::unique_ptr<TraceRe
     throw OptionError("trace_piece", "trace_piece: the run is not in pieces");
   }
   TracePlan::check_files(options, mesh.file());
-  return face::on_threads(options.threads, [&] {
+  return face::on_threads(face::threads_of(options), [&] {
     Improvement improvement(mesh, options, plan, portrait, nullptr);
     Result result = improvement.run();
     trace = improvement.take_trace();
@@ -671,8 +671,9 @@ Result face::improve(Mesh& mesh, const Options& options, std::unique_ptr<TraceRe
 
 Result face::improve(Mesh& mesh, const Options& options, Follower& follower) {
   Plan plan(options);
-  return face::on_threads(
-      options.threads, [&] { return Improvement(mesh, options, plan, nullptr, &follower).run(); });
+  return face::on_threads(face::threads_of(options), [&] {
+    return Improvement(mesh, options, plan, nullptr, &follower).run();
+  });
 }
 
 Result face::improve(Mesh& mesh, const Options& options, Portrait* portrait) {

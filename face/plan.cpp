@@ -28,7 +28,7 @@ Schedule find_schedule(const Options& options) {
 }  // namespace
 
 Plan::Plan(const Options& options)
-    : registry(load_registry(options.plugin)),
+    : registry(load_registry(options.plugin, options.operators)),
       schedule(find_schedule(options)),
       trace(options, registry),
       purpose(find_purpose(options)),
@@ -44,9 +44,9 @@ Plan::Plan(const Options& options)
                                           options.goal.min_angle, options.goal.max_angle));
   }
   try {
-    const Standard::Terms terms = to_terms(options.measure);
-    const bool has_price = terms != Standard::Terms::sine;
-    standard = Standard(options.goal, terms, has_price ? Standard::kUsualPrice : 0);
+    standard = registry.standard(options.measure, options.goal, 0);
+    const bool has_price = standard.terms() != Standard::Terms::sine;
+    standard = standard.with_price(has_price ? Standard::kUsualPrice : 0);
   } catch (const Error& error) {
     throw OptionError("measure", fmt::format("measure: {}", error.what()));
   }

@@ -5,12 +5,14 @@
 #include <algorithm>
 #include <system_error>
 
+#include "face/kernel/own_operator.h"
 #include "kernel/error.h"
 #include "ops/plugin.h"
 
 namespace tetmend::face {
 
-Registry load_registry(const std::vector<std::filesystem::path>& plugins) {
+Registry load_registry(const std::vector<std::filesystem::path>& plugins,
+                       const kernel::Operators* own) {
   Registry registry = Registry::builtin();
   std::vector<std::filesystem::path> known;
   for (const std::filesystem::path& file : plugins) {
@@ -22,6 +24,7 @@ Registry load_registry(const std::vector<std::filesystem::path>& plugins) {
     known.push_back(real);
     load_plugin(file, registry);
   }
+  if (own != nullptr) kernel::add_to(registry, *own, nullptr);
   return registry;
 }
 

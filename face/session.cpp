@@ -87,7 +87,7 @@ class Improver::Session {
   Session(Mesh mesh, Options options)
       : options_(with_schedule_of_sizes(std::move(options))), plan_(options_) {
     check_of_session(options_, plan_);
-    face::on_threads(options_.threads, [&] { build(std::move(mesh)); });
+    face::on_threads(face::threads_of(options_), [&] { build(std::move(mesh)); });
   }
 
   bool move(std::span<const std::array<double, 3>> points);
@@ -169,7 +169,7 @@ bool Improver::Session::move(std::span<const std::array<double, 3>> points) {
     if (std::isfinite(x) && std::isfinite(y) && std::isfinite(z)) continue;
     throw Error(fmt::format("move: points[{}]: ({}, {}, {}) is not finite", i, x, y, z));
   }
-  return face::on_threads(options_.threads, [&] {
+  return face::on_threads(face::threads_of(options_), [&] {
     if (place_points(mesh_, points) > 0) return false;
     shown_.reset();
     for (std::size_t i = 0; held_ && i < points.size(); ++i) {
@@ -328,7 +328,7 @@ void Improver::Session::end_step(ImproverStep& step) {
 }
 
 ImproverStep Improver::Session::improve(std::size_t attempts) {
-  return face::on_threads(options_.threads, [&] {
+  return face::on_threads(face::threads_of(options_), [&] {
     hold_vertices();
     ImproverStep step;
     mesh_before_ = {point_count(), tet_count()};

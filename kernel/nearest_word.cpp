@@ -30,6 +30,13 @@ std::size_t count_slips(std::string_view a, std::string_view b) {
 
 }  // namespace
 
+bool is_name(std::string_view text) {
+  const auto fits = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_';
+  };
+  return !text.empty() && text[0] >= 'a' && std::all_of(text.begin(), text.end(), fits);
+}
+
 std::string nearest_word(std::string_view word, std::span<const std::string> candidates) {
   constexpr std::size_t kMostWord = 64;  // longer ones are no slips
   if (word.size() > kMostWord) return {};

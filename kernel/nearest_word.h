@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What somebody who mistyped a word may have meant.
+// Words that users choose: what is one, and what somebody who mistyped one may have meant.
 #pragma once
 
 #include <span>
@@ -7,6 +7,9 @@
 #include <string_view>
 
 namespace tetmend {
+
+/// Lower case letters, digits and underscores, first a letter: what fits any script and shell.
+bool is_name(std::string_view text);
 
 /// The candidate of the fewest letters that are to be added, left out, replaced or swapped with the
 /// next one; of equal ones the first. Empty where that is more than a third of the word: then it is

@@ -6,6 +6,7 @@
 #include <limits>
 #include <numbers>
 #include <string>
+#include <utility>
 
 #include "kernel/error.h"
 #include "kernel/nearest_word.h"
@@ -78,21 +79,79 @@ Standard::Standard(const Goal& goal, Terms terms, double price)
   length_ = (1 - flat2_) * 432 / needle_volume_length2(kNeedleRatio);
 }
 
+Standard Standard::of(OwnMeasure measure, const Goal& goal, double price) {
+  if (!is_name(measure.name)) {
+    throw Error("measure '" + measure.name + "': the name is not made of a-z, 0-9 and _");
+  }
+  for (const std::string_view taken : {"sine", "sine_and_length", "own"}) {
+    if (measure.name == taken) throw Error("measure '" + measure.name + "': the name is taken");
+  }
+  if (!(measure.good > 0) || !std::isfinite(measure.good)) {
+    throw Error("measure '" + measure.name + "': the value of a good tet must be above 0");
+  }
+  Standard standard(goal, Terms::sine, price);
+  standard.terms_ = Terms::own;
+  standard.own_ = std::make_shared<const OwnMeasure>(std::move(measure));
+  return standard;
+}
+
+Standard Standard::with_goal(const Goal& goal) const {
+  Standard standard(goal, own_ ? Terms::sine : terms_, price_);
+  standard.terms_ = terms_;
+  standard.own_ = own_;
+  return standard;
+}
+
+Standard Standard::with_price(double price) const {
+  Standard standard = *this;
+  standard.price_ = price;
+  return standard;
+}
+
+std::string_view Standard::measure_name() const {
+  return own_ ? std::string_view(own_->name) : to_string(terms_);
+}
+
+bool Standard::is_same(const Standard& a, const Standard& b) {
+  if (a.own_ == b.own_) return true;
+  return a.own_ && b.own_ && !a.own_->evaluate && !b.own_->evaluate &&
+         a.own_->name == b.own_->name && a.own_->good == b.own_->good;
+}
+
+double Standard::own_quality(const Point& p0, const Point& p1, const Point& p2,
+                             const Point& p3) const {
+  if (!own_->evaluate) return of_angles().quality(p0, p1, p2, p3);
+  constexpr double kLeast = 1e-6;  // a tet that is turned over is told from a flat one
+  constexpr double kMost = 1e6;
+  const double v6 = volume6(p0, p1, p2, p3);
+  if (!(v6 > 0) && !(v6 < 0)) return 0;
+  const double value = own_->evaluate(p0, p1, p2, p3) / own_->good;
+  if (v6 < 0) return -std::clamp(std::isnan(value) ? kMost : std::abs(value), kLeast, kMost);
+  return value > 0 ? std::min(value, kMost) : 0;
+}
+
 double Standard::quality_of_angle(double degrees) const {
   return sine_of(degrees) * std::sqrt(degrees > 90 ? obtuse2_ : acute2_);
 }
 
-Standard::Terms to_terms(std::string_view name) {
+Standard::Terms to_terms(std::string_view name, std::string_view valid) {
   for (const auto terms : {Standard::Terms::sine, Standard::Terms::sine_and_length}) {
     if (name == to_string(terms)) return terms;
   }
-  constexpr std::string_view kValid = "sine, sine_and_length";
-  throw Error("unknown measure '" + std::string(name) + "'; valid: " + std::string(kValid) +
-              guess_of(name, kValid));
+  throw Error("unknown measure '" + std::string(name) + "'; valid: " + std::string(valid) +
+              guess_of(name, valid));
 }
 
 std::string_view to_string(Standard::Terms terms) {
-  return terms == Standard::Terms::sine ? "sine" : "sine_and_length";
+  switch (terms) {
+    case Standard::Terms::sine:
+      return "sine";
+    case Standard::Terms::sine_and_length:
+      return "sine_and_length";
+    case Standard::Terms::own:
+      return "own";
+  }
+  return "";
 }
 
 bool is_sound(const Goal& goal) {

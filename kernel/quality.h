@@ -7,7 +7,10 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <functional>
+#include <memory>
 #include <span>
+#include <string>
 #include <string_view>
 
 #include <tetmend/api.h>
@@ -33,6 +36,15 @@ struct TETMEND_API QualityMeasure {
   double best;  ///< value of the regular tet
 };
 
+/// A measure of a program or of a plugin, for Standard::of().
+struct TETMEND_API OwnMeasure {
+  std::string name;  ///< a-z, 0-9 and _, first a letter
+  double good = 1;   ///< a tet of a lower value is bad; above 0
+  /// Of the four points of a tet in positive order: larger is better. Asked by many threads at once,
+  /// and the same whenever it is asked. Null: unknown, as of a trace that another program made.
+  std::function<double(const Point&, const Point&, const Point&, const Point&)> evaluate;
+};
+
 /// From when on a tet is good, and what it is judged by. Its quality is the smaller of two terms,
 /// with the sign of the volume; 0 when a face is degenerate.
 ///
@@ -43,22 +55,35 @@ struct TETMEND_API QualityMeasure {
 /// So a tet is bad if it misses the goal, or if it is a needle. Sines alone do not see needles:
 /// operators make them, and nothing can repair the thin tets around. A needle is no worse than
 /// `flat`, so among the worst tets sines alone decide. Where the surface forces needles, these do
-/// not hide the angles. A value of a few words; immutable.
+/// not hide the angles. Or it is a measure of the program's own. A value of a few words; immutable.
 class TETMEND_API Standard {
  public:
   /// Of a new bad tet, in runs that do not say otherwise. The paper has none.
   static constexpr double kUsualPrice = 0.1;
   /// The measures that a run may have.
   enum class Terms : unsigned char {
-    sine,            ///< of [chen, 6.1]
-    sine_and_length  ///< with the second term
+    sine,             ///< of [chen, 6.1]
+    sine_and_length,  ///< with the second term
+    own               ///< one of the program, see of()
   };
   /// No goal: the quality is minimum_sine().
   Standard() = default;
+  /// Precondition: terms are not `own`.
   explicit Standard(const Goal& goal, Terms terms = Terms::sine_and_length, double price = 0);
+  /// By a measure of one's own: the quality is its value over `good`, and has the sign of the volume; 0
+  /// where that is none. Where the function is unknown, it is that of the angles by the goal, which else is for figures
+  /// of angles alone. @throws Error for a name or a value of a good tet without sense
+  static Standard of(OwnMeasure measure, const Goal& goal = {}, double price = 0);
+  /// The same in another point.
+  Standard with_goal(const Goal& goal) const;
+  Standard with_price(double price) const;
 
   const Goal& goal() const { return goal_; }
   Terms terms() const { return terms_; }
+  /// Null: none.
+  const OwnMeasure* own() const { return own_.get(); }
+  /// What options, scripts and traces call what tets are judged by.
+  std::string_view measure_name() const;
   /// What the worst tet must gain for each more bad tet that a change leaves; see Judge.
   double price() const { return price_; }
   /// The quality of a tet whose worst angle is `degrees` and that is no needle.
@@ -79,13 +104,22 @@ class TETMEND_API Standard {
     angles.terms_ = Terms::sine;
     angles.flat2_ = kOff;
     angles.length_ = 0;
+    angles.own_ = nullptr;
     return angles;
   }
   /// Of a tet in positive order. One root, two divisions.
   double quality(const Point& p0, const Point& p1, const Point& p2, const Point& p3) const;
-  friend bool operator==(const Standard&, const Standard&) = default;
+  /// The own measure of several tets costs what it costs of each: there is nothing to share.
+  bool is_own() const { return own_ != nullptr; }
+  friend bool operator==(const Standard& a, const Standard& b) {
+    return a.goal_ == b.goal_ && a.terms_ == b.terms_ && a.price_ == b.price_ && is_same(a, b);
+  }
 
  private:
+  /// The same measure of a program, or one of the same name that two traces know nothing else of.
+  static bool is_same(const Standard& a, const Standard& b);
+  double own_quality(const Point& p0, const Point& p1, const Point& p2, const Point& p3) const;
+
   Goal goal_ = {90, 90};
   Terms terms_ = Terms::sine;
   double price_ = 0;
@@ -93,6 +127,7 @@ class TETMEND_API Standard {
   double obtuse2_ = 1;
   double flat2_ = kOff;
   double length_ = 0;
+  std::shared_ptr<const OwnMeasure> own_;
 
   static constexpr double kOff = 1e30;  // more than any other term
 };
@@ -105,8 +140,9 @@ inline double minimum_sine(const Point& p0, const Point& p1, const Point& p2, co
 }
 
 /// As options and scripts write it: "sine" or "sine_and_length".
-/// @throws Error for another name, with these two.
-TETMEND_API Standard::Terms to_terms(std::string_view name);
+/// @throws Error for another name, with the valid ones
+TETMEND_API Standard::Terms to_terms(std::string_view name,
+                                     std::string_view valid = "sine, sine_and_length");
 TETMEND_API std::string_view to_string(Standard::Terms terms);
 
 /// True if the angles of a goal are within their bounds.
@@ -142,6 +178,7 @@ TETMEND_API double largest_angle_sine(const Point& a, const Point& b, const Poin
 
 inline double Standard::quality(const Point& p0, const Point& p1, const Point& p2,
                                 const Point& p3) const {
+  if (own_ != nullptr) return own_quality(p0, p1, p2, p3);
   const Point e01 = p1 - p0;
   const Point e02 = p2 - p0;
   const Point e03 = p3 - p0;

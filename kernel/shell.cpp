@@ -13,6 +13,35 @@ namespace {
 constexpr std::array<std::array<std::uint8_t, 2>, 6> kOtherVertices = {
     {{2, 3}, {3, 1}, {1, 2}, {0, 3}, {2, 0}, {0, 1}}};
 
+/// The tet at hand of a walk around an edge: (a, b, from, to), positive.
+struct Turn {
+  TetHandle tet;
+  VertexHandle from;
+  VertexHandle to;
+};
+
+Turn first_turn(const TetMesh& mesh, TetEdge e) {
+  const TetVertices& v = mesh.vertices(e.tet());
+  const auto& other = kOtherVertices[e.edge()];
+  return {e.tet(), v[other[0]], v[other[1]]};
+}
+
+/// To the tet behind the face opposite `from`; false at the boundary.
+bool step(const TetMesh& mesh, Turn& turn) {
+  const HalfFace next = mesh.twin(HalfFace(turn.tet, mesh.local_index(turn.tet, turn.from)));
+  if (next.is_outside()) return false;
+  turn = {next.tet(), turn.to, mesh.vertices(next.tet())[next.face()]};
+  return true;
+}
+
+/// The other way round.
+bool step_back(const TetMesh& mesh, Turn& turn) {
+  const HalfFace next = mesh.twin(HalfFace(turn.tet, mesh.local_index(turn.tet, turn.to)));
+  if (next.is_outside()) return false;
+  turn = {next.tet(), mesh.vertices(next.tet())[next.face()], turn.from};
+  return true;
+}
+
 }  // namespace
 
 ShellKind find_shell(const TetMesh& mesh, TetEdge edge, Shell& shell, const Territory& territory) {
@@ -56,46 +85,26 @@ std::optional<TetEdge> find_edge(const TetMesh& mesh, VertexHandle a, VertexHand
   return find_in_star(mesh, a, b, workspace);
 }
 
-ShellRange::ShellRange(const TetMesh& mesh, TetEdge edge) {
-  const TetVertices& v = mesh.vertices(edge.tet());
-  begin_.mesh_ = &mesh;
-  begin_.current_ = begin_.first_ = edge;
-  begin_.leave_ = v[kOtherVertices[edge.edge()][1]];
-  // Walk the one way first: either it comes back here, or it ends at the boundary, and the range
-  // starts there the other way.
-  Iterator probe = begin_;
-  TetEdge last = edge;
-  for (; !(probe == std::default_sentinel); ++probe) last = *probe;
-  const TetHandle t = last.tet();
-  const auto [a, b] = mesh.vertices(edge);
-  const TetVertices& w = mesh.vertices(t);
-  begin_.current_ = begin_.first_ = last;
-  // Of the two vertices off the edge, leave opposite the one that starts the ring order at the end
-  // of the probe.
-  const unsigned i = mesh.local_index(t, a);
-  const unsigned j = mesh.local_index(t, b);
-  const unsigned e = kEdgeOf[i][j];
-  const bool same_sense = kEdgeVertices[e][0] == i;
-  begin_.leave_ = w[kOtherVertices[e][same_sense ? 0 : 1]];
-}
-
-ShellRange::Iterator& ShellRange::Iterator::operator++() {
-  const auto [a, b] = mesh_->vertices(current_);
-  const TetHandle t = current_.tet();
-  const HalfFace twin = mesh_->twin(HalfFace(t, mesh_->local_index(t, leave_)));
-  if (twin.is_outside() || twin.tet() == first_.tet()) {
-    mesh_ = nullptr;
-    return *this;
+Ring ring(const TetMesh& mesh, TetEdge e) {
+  Ring found;
+  if (mesh.is_deleted(e.tet())) return found;
+  const auto [a, b] = mesh.vertices(e);
+  found.a = a;
+  found.b = b;
+  Turn turn = first_turn(mesh, e);
+  // An open ring begins at the boundary.
+  while (step_back(mesh, turn) && turn.tet != e.tet()) {
   }
-  // Crossed faces contain the edge and the vertex that is left behind next.
-  for (const VertexHandle v : mesh_->vertices(t)) {
-    if (v != a && v != b && v != leave_) {
-      leave_ = v;
-      break;
-    }
-  }
-  current_ = *edge_in(*mesh_, twin.tet(), a, b);
-  return *this;
+  const TetHandle first = turn.tet;
+  do {
+    found.tets.push_back(turn.tet);
+    found.vertices.push_back(turn.from);
+    if (step(mesh, turn)) continue;
+    found.vertices.push_back(turn.to);
+    return found;
+  } while (turn.tet != first);
+  found.closed = true;
+  return found;
 }
 
 }  // namespace tetmend

@@ -14,11 +14,11 @@
 
 #include <array>
 #include <cstddef>
-#include <iterator>
 #include <optional>
 
 #include <tetmend/api.h>
 
+#include "kernel/few.h"
 #include "kernel/territory.h"
 #include "kernel/tet_mesh.h"
 
@@ -73,46 +73,19 @@ inline std::optional<TetEdge> edge_in(const TetMesh& mesh, TetHandle t, VertexHa
   return TetEdge(t, kEdgeOf[i][j]);
 }
 
-/// Lazy range over the tets around an edge, open shells included: yields the edge as each tet names
-/// it. Works for boundary and constrained edges.
-class TETMEND_API ShellRange {
- public:
-  class Iterator {
-   public:
-    using value_type = TetEdge;
-    using difference_type = std::ptrdiff_t;
-    using iterator_category = std::input_iterator_tag;
-
-    Iterator() = default;
-    TetEdge operator*() const { return current_; }
-    Iterator& operator++();
-    Iterator operator++(int) {
-      Iterator old = *this;
-      ++*this;
-      return old;
-    }
-    friend bool operator==(const Iterator& i, std::default_sentinel_t) {
-      return i.mesh_ == nullptr;
-    }
-
-   private:
-    friend class ShellRange;
-    const TetMesh* mesh_ = nullptr;
-    TetEdge current_;
-    TetEdge first_;
-    VertexHandle leave_;  // the next face to cross lies opposite this vertex
-  };
-
-  ShellRange(const TetMesh& mesh, TetEdge edge);
-  Iterator begin() const { return begin_; }
-  std::default_sentinel_t end() const { return {}; }
-
- private:
-  Iterator begin_;
+/// The tets around an edge (a, b) in turn: tets[i] is (a, b, vertices[i], vertices[i + 1]), and
+/// positive. A closed ring has as many vertices as tets. An open one goes from one face of the
+/// boundary to the other, and has one vertex more.
+struct TETMEND_API Ring {
+  VertexHandle a;
+  VertexHandle b;
+  bool closed = false;
+  Few<TetHandle, 16> tets;
+  Few<VertexHandle, 16> vertices;
 };
 
-inline ShellRange shell(const TetMesh& mesh, TetEdge edge) {
-  return {mesh, edge};
-}
+/// All tets around an edge, whatever is constrained there. Empty for an edge of a deleted tet. Cost: linear
+/// in them.
+TETMEND_API Ring ring(const TetMesh& mesh, TetEdge edge);
 
 }  // namespace tetmend

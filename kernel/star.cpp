@@ -2,7 +2,11 @@
 // Breadth-first walks over the star of a vertex.
 #include "kernel/star.h"
 
+#include <array>
+#include <cstdint>
 #include <limits>
+#include <span>
+#include <vector>
 
 #include "kernel/shell.h"
 #include "kernel/workspace.h"
@@ -50,6 +54,44 @@ StarKind walk_star(const TetMesh& mesh, VertexHandle v, Workspace& workspace, st
   return StarKind::whole;
 }
 
+/// A set of numbers that lies on the stack while it is small, as those of a star are.
+class Seen {
+ public:
+  Seen() { small_.fill(kNone); }
+
+  /// True if it was not there.
+  bool insert(std::uint32_t number) {
+    if (2 * (size_ + 1) > table_.size()) grow();
+    std::size_t i = home(number);
+    for (; table_[i] != kNone; i = (i + 1) & (table_.size() - 1)) {
+      if (table_[i] == number) return false;
+    }
+    table_[i] = number;
+    ++size_;
+    return true;
+  }
+
+ private:
+  static constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+  std::size_t home(std::uint32_t number) const { return (number * 0x9E3779B1u) >> shift_; }
+  void grow() {
+    const std::vector<std::uint32_t> old(table_.begin(), table_.end());
+    large_.assign(2 * old.size(), kNone);
+    table_ = large_;
+    --shift_;
+    size_ = 0;
+    for (const std::uint32_t number : old) {
+      if (number != kNone) insert(number);
+    }
+  }
+
+  std::array<std::uint32_t, 128> small_{};
+  std::vector<std::uint32_t> large_;
+  std::span<std::uint32_t> table_ = small_;
+  unsigned shift_ = 25;  // 32 less the digits of the table's size
+  std::size_t size_ = 0;
+};
+
 bool visit_nothing(HalfFace, HalfFace) {
   return false;
 }
@@ -66,35 +108,40 @@ bool collect_link(const TetMesh& mesh, VertexHandle v, Workspace& workspace,
   return walk_star(mesh, v, workspace, kAnySize, out, visit_nothing) == StarKind::whole;
 }
 
-std::span<const HalfFace> link(const TetMesh& mesh, VertexHandle v, Workspace& workspace) {
-  collect_link(mesh, v, workspace, workspace.link_buffer);
-  return workspace.link_buffer;
+Link link(const TetMesh& mesh, VertexHandle v) {
+  Link found;
+  const TetHandle first = mesh.tet_of(v);
+  if (!first.is_valid()) return found;
+  Seen seen;
+  seen.insert(first.index());
+  found.push_back(HalfFace(first, mesh.local_index(first, v)));
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    const HalfFace opposite = found[i];
+    const std::array<HalfFace, 4>& neighbours = mesh.neighbours(opposite.tet());
+    for (unsigned f = 0; f < 4; ++f) {
+      const HalfFace twin = neighbours[f];
+      if (f == opposite.face() || twin.is_outside() || !seen.insert(twin.tet().index())) continue;
+      found.push_back(HalfFace(twin.tet(), mesh.local_index(twin.tet(), v)));
+      prefetch_neighbours(mesh, twin.tet());
+    }
+  }
+  return found;
 }
 
-std::span<const TetHandle> star(const TetMesh& mesh, VertexHandle v, Workspace& workspace) {
-  collect_link(mesh, v, workspace, workspace.link_buffer);
-  workspace.star_buffer.clear();
-  for (const HalfFace f : workspace.link_buffer) workspace.star_buffer.push_back(f.tet());
-  return workspace.star_buffer;
+Star star(const TetMesh& mesh, VertexHandle v) {
+  Star tets;
+  for (const HalfFace f : link(mesh, v)) tets.push_back(f.tet());
+  return tets;
 }
 
-std::span<const VertexHandle> one_ring(const TetMesh& mesh, VertexHandle v, Workspace& workspace) {
-  constexpr std::uint32_t kIsVertex = 1u << 31;  // beyond the numbers of tets, in the same set
-  std::vector<VertexHandle>& ring = workspace.ring_buffer;
-  ring.clear();
-  const auto add = [&](VertexHandle w) {
-    if (workspace.star_set.insert(w.index() | kIsVertex)) ring.push_back(w);
-  };
-  // A tet shares a face with the one that the walk came from, and adds what lies opposite of it.
-  walk_star(mesh, v, workspace, kAnySize, workspace.link_buffer,
-            [&](HalfFace opposite, HalfFace entered) {
-              if (entered == HalfFace()) {
-                for (const VertexHandle w : mesh.vertices(opposite)) add(w);
-              } else {
-                add(mesh.vertices(entered.tet())[entered.face()]);
-              }
-              return false;
-            });
+OneRing one_ring(const TetMesh& mesh, VertexHandle v) {
+  OneRing ring;
+  Seen seen;
+  for (const HalfFace f : link(mesh, v)) {
+    for (const VertexHandle w : mesh.vertices(f)) {
+      if (seen.insert(w.index())) ring.push_back(w);
+    }
+  }
   return ring;
 }
 

@@ -5,11 +5,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
-#include <span>
 #include <vector>
 
 #include <tetmend/api.h>
 
+#include "kernel/few.h"
 #include "kernel/tet_mesh.h"
 
 namespace tetmend {
@@ -32,22 +32,23 @@ enum class StarKind : std::uint8_t {
 TETMEND_API StarKind find_star(const TetMesh& mesh, VertexHandle v, Workspace& workspace,
                                std::vector<HalfFace>& out);
 
+using Star = Few<TetHandle, 48>;        ///< the tets around a vertex
+using Link = Few<HalfFace, 48>;         ///< for each of them its face opposite the vertex
+using OneRing = Few<VertexHandle, 32>;  ///< the other ends of the edges of a vertex
+
+/// Of a vertex, as values; empty for one of no tet. They spread through faces from the stored tet; the
+/// order follows from the connectivity alone. Cost: linear in the star. Precondition for a worker: the
+/// star lies in its territory; operators that do not know ask collect_link().
+TETMEND_API Link link(const TetMesh& mesh, VertexHandle v);
+TETMEND_API Star star(const TetMesh& mesh, VertexHandle v);
+TETMEND_API OneRing one_ring(const TetMesh& mesh, VertexHandle v);
+
 /// Link of a vertex as half-faces: for each tet of the star, the half-face opposite v. Spreads
 /// through faces from the stored tet; the order follows from the connectivity alone. `out` is
 /// cleared first. False, with a part of the link, if the star leaves the territory of the
 /// workspace. Cost: linear in the star.
 TETMEND_API bool collect_link(const TetMesh& mesh, VertexHandle v, Workspace& workspace,
                               std::vector<HalfFace>& out);
-
-/// Link, star (the tets around v) and one-ring (their other vertices, each once). The span is valid
-/// until the next call of the same function with the same workspace. Precondition: the star lies in
-/// the territory of the workspace.
-TETMEND_API std::span<const HalfFace> link(const TetMesh& mesh, VertexHandle v,
-                                           Workspace& workspace);
-TETMEND_API std::span<const TetHandle> star(const TetMesh& mesh, VertexHandle v,
-                                            Workspace& workspace);
-TETMEND_API std::span<const VertexHandle> one_ring(const TetMesh& mesh, VertexHandle v,
-                                                   Workspace& workspace);
 
 /// Edge (a, b) in the star of a, or in that of b if a's is larger than kMaxStar; nothing if there is
 /// none in the territory of the workspace. Precondition: a is a live vertex with a tet. Cost: linear

@@ -84,8 +84,20 @@ void TetBatch::add(const Point& a, const Point& b, const Point& c, const Point& 
   ++size_;
 }
 
+void TetBatch::evaluate_one_by_one(const Standard& standard) {
+  for (std::size_t i = 0; i < size_; ++i) {
+    const auto corner = [&](Row x) {
+      return Point(value(x, i), value(static_cast<Row>(x + 1), i),
+                   value(static_cast<Row>(x + 2), i));
+    };
+    groups_[i / kWideLanes].of[kQuality][i % kWideLanes] =
+        standard.quality(corner(ax), corner(bx), corner(cx), corner(dx));
+  }
+}
+
 void TetBatch::evaluate(const Standard& standard) {
   evaluate_groups(groups_.data(), (size_ + kWideLanes - 1) / kWideLanes, standard);
+  if (standard.is_own()) evaluate_one_by_one(standard);
 }
 
 }  // namespace tetmend

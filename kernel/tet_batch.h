@@ -34,6 +34,7 @@ class TETMEND_API TetBatch {
   using Group = WideRows<kRows>;
 
  private:
+  void evaluate_one_by_one(const Standard& standard);
   double value(Row row, std::size_t i) const {
     return groups_[i / kWideLanes].of[row][i % kWideLanes];
   }

@@ -93,8 +93,9 @@ std::size_t TetMesh::freeze(const std::function<bool(TetHandle)>& is_frozen) {
 }
 
 void TetMesh::set_standard(const Standard& standard) {
-  const bool same_qualities =
-      standard.goal() == standard_.goal() && standard.terms() == standard_.terms();
+  const bool same_qualities = standard.goal() == standard_.goal() &&
+                              standard.terms() == standard_.terms() &&
+                              standard.own() == standard_.own();
   standard_ = standard;
   bounds_ = bounds_.under(standard);
   if (same_qualities) return;

@@ -372,7 +372,7 @@ class TETMEND_API BuildError : public Error {
 /// The angles of the tet miss the goal; a needle whose angles are good does not.
 inline bool misses_goal(const TetMesh& mesh, TetHandle t) {
   if (mesh.quality(t) >= kBadThreshold) return false;
-  if (mesh.standard().terms() == Standard::Terms::sine) return true;
+  if (mesh.standard().terms() != Standard::Terms::sine_and_length) return true;
   const TetVertices& v = mesh.vertices(t);
   return static_cast<Quality>(mesh.standard().of_angles().quality(
              mesh.point(v[0]), mesh.point(v[1]), mesh.point(v[2]), mesh.point(v[3]))) <

@@ -23,6 +23,14 @@ namespace tetmend {
 
 namespace {
 
+/// Slots that another workspace has filled since, or that a renumbering took away, are not free: of so
+/// many as are needed none may be, or all such go.
+void drop_taken(auto& free, std::size_t needed, std::size_t slots, const auto& is_deleted) {
+  const auto is_taken = [&](auto handle) { return handle.index() >= slots || !is_deleted(handle); };
+  const auto count = static_cast<std::ptrdiff_t>(std::min(needed, free.size()));
+  if (std::any_of(free.end() - count, free.end(), is_taken)) std::erase_if(free, is_taken);
+}
+
 template <class T>
 std::uint32_t size32(const std::vector<T>& values) {
   return static_cast<std::uint32_t>(values.size());
@@ -319,6 +327,10 @@ std::uint32_t Transaction::make_room(std::size_t old, std::size_t created) {
   if (!mesh_.tet_properties_.empty() || !mesh_.vertex_properties_.empty()) {
     make_room_for(old + vertices, journal.property_values);
   }
+  if (created > old) {
+    drop_taken(free_tets, created - old, mesh_.tet_slots(),
+               [this](TetHandle t) { return mesh_.is_deleted(t); });
+  }
   const std::size_t slots = old + free_tets.size();
   if (created <= slots) return 0;
   mesh_.grow_tets(created - slots);  // last: nothing that may fail follows
@@ -484,6 +496,8 @@ VertexHandle Transaction::add_vertex(const Point& point) {
   std::vector<std::any> properties = mesh_.vertex_properties_.initial();
   Edit edit;
   edit.kind = Edit::Kind::add_vertex;
+  drop_taken(workspace_.free_.vertices, 1, mesh_.vertex_slots(),
+             [this](VertexHandle v) { return mesh_.is_deleted(v); });
   if (!workspace_.free_.vertices.empty()) {
     edit.vertex = workspace_.free_.vertices.back();
     workspace_.free_.vertices.pop_back();
@@ -519,8 +533,15 @@ void Transaction::set_flags(Edit& edit) noexcept {
 
 EditResult Transaction::move_vertex(VertexHandle v, const Point& point,
                                     std::span<const HalfFace> link) {
+  if (link.empty() && mesh_.tet_of(v).is_valid()) return EditResult::not_closed;
   const VertexMove move = {v, point, link};
   return move_vertices({&move, 1});
+}
+
+EditResult Transaction::move_vertex(VertexHandle v, const Point& point) {
+  if (v.index() >= mesh_.vertex_slots() || mesh_.is_deleted(v)) return EditResult::not_closed;
+  const Link around = link(mesh_, v);
+  return move_vertex(v, point, {around.data(), around.size()});
 }
 
 EditResult Transaction::move_vertices(std::span<const VertexMove> moves) {

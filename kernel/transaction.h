@@ -74,7 +74,10 @@ class TETMEND_API Transaction {
 
   /// Moves a vertex that is not fixed and updates the qualities of its star, given as the link (see
   /// star.h). A tet of positive quality must stay certified positive.
+  /// `not_closed` without a link.
   EditResult move_vertex(VertexHandle v, const Point& point, std::span<const HalfFace> link);
+  /// The same, for who has not looked at the link yet.
+  EditResult move_vertex(VertexHandle v, const Point& point);
   /// Moves several different vertices at once, all or none: tets need to be positive only when all
   /// are in place.
   EditResult move_vertices(std::span<const VertexMove> moves);

@@ -95,10 +95,7 @@ class TETMEND_API Workspace {
 
   // Buffers of the walks in star.h.
   IndexSet star_set;
-  std::vector<HalfFace> link_buffer;
   std::vector<HalfFace> search_buffer;
-  std::vector<TetHandle> star_buffer;
-  std::vector<VertexHandle> ring_buffer;
 
   /// Adds free slots to the mesh so that it has at least that many. Precondition: no territory.
   void provide(TetMesh& mesh, std::size_t tets, std::size_t vertices);

@@ -171,7 +171,8 @@ class EdgeSplit final : public OperatorOf<SplitState> {
   /// Wherever the new vertex goes, the two tets at a ring edge share the angle that the old tet,
   /// which is positive, has there: one of them has half of it at most.
   static bool is_hopeless(const TetMesh& mesh, const State& state, double least) {
-    constexpr double kRounding = 1e-6;  // far more than there is
+    if (mesh.standard().is_own()) return false;  // that says nothing of angles
+    constexpr double kRounding = 1e-6;           // far more than there is
     const Point& a = mesh.point(state.a);
     const Point& b = mesh.point(state.b);
     // Largest cosine of an angle whose half, which is acute, is of a quality above `least`.

@@ -64,8 +64,11 @@ Plugin load_plugin(const std::filesystem::path& path, Registry& registry) {
     Registry own;
     enter(own);
     Plugin plugin{path, {own.operators().begin(), own.operators().end()}};
-    if (plugin.operators.empty()) throw Error("it registers no operator");
+    if (plugin.operators.empty() && own.measures().empty()) {
+      throw Error("it registers no operator");
+    }
     Registry extended = registry;
+    for (const Standard& measure : own.measures()) extended.add_measure(measure);
     for (const OperatorInfo* info : plugin.operators) extended.add(*info, path.string());
     registry = std::move(extended);
     return plugin;

@@ -34,7 +34,7 @@ struct TETMEND_API PluginAbi {
 /// To be raised when plugins must be built again although no size has changed: when virtual
 /// functions of Operator or TraceSink are added, removed or moved, or when members change places or
 /// meaning.
-inline constexpr std::uint32_t kPluginAbiVersion = 8;
+inline constexpr std::uint32_t kPluginAbiVersion = 9;
 
 /// Checksum of the sizes of all that host and plugin share: it differs between versions of tetmend
 /// whose classes differ, and between standard libraries, also by their debugging modes.
@@ -46,6 +46,7 @@ constexpr std::uint32_t plugin_layout() {
                                  sizeof(std::vector<int>),
                                  sizeof(std::filesystem::path),
                                  sizeof(Point),
+                                 sizeof(Standard),
                                  alignof(Point),
                                  sizeof(TetMesh),
                                  sizeof(SurfaceTriangle),
@@ -76,7 +77,7 @@ inline constexpr PluginAbi kPluginAbi = {kPluginAbiVersion, plugin_layout()};
 /// A plugin that was loaded.
 struct TETMEND_API Plugin {
   std::filesystem::path file;
-  std::vector<const OperatorInfo*> operators;  ///< what it added, in its order; at least one
+  std::vector<const OperatorInfo*> operators;  ///< what it added, in its order
 };
 
 /// Loads a plugin and adds its operators, with `file` as their origin, to the registry: all of

@@ -14,14 +14,6 @@ namespace tetmend {
 
 namespace {
 
-/// Lower case letters, digits and underscores, first a letter: what fits any script and shell.
-bool is_name(std::string_view text) {
-  const auto fits = [](char c) {
-    return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_';
-  };
-  return !text.empty() && text[0] >= 'a' && std::all_of(text.begin(), text.end(), fits);
-}
-
 /// Why a parameter makes no sense; empty if it does.
 std::string_view complaint_about(const ParameterSpec& spec) {
   using Kind = ParameterSpec::Kind;
@@ -74,6 +66,26 @@ void Registry::add(const OperatorInfo& info, std::string_view origin) {
 
 void Registry::add(const OperatorInfo& info, Maker make) {
   add(info, {}, std::move(make));
+  needs_whole_mesh_ = true;
+}
+
+void Registry::add_measure(const Standard& own) {
+  const std::string_view name = own.measure_name();
+  for (const Standard& known : measures_) {
+    if (known.measure_name() == name) {
+      throw Error(fmt::format("measure '{}' is registered twice", name));
+    }
+  }
+  measures_.push_back(own);
+}
+
+Standard Registry::standard(std::string_view measure, const Goal& goal, double price) const {
+  std::string valid = "sine, sine_and_length";
+  for (const Standard& own : measures_) {
+    if (own.measure_name() == measure) return own.with_goal(goal).with_price(price);
+    valid += fmt::format(", {}", own.measure_name());
+  }
+  return Standard(goal, to_terms(measure, valid), price);
 }
 
 void Registry::add(const OperatorInfo& info, std::string_view origin, Maker make) {

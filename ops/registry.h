@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The operators that exist, by name. Passed down; there is no global registry.
+// The operators and measures that exist, by name. Passed down; there is no global registry.
 #pragma once
 
 #include <functional>
@@ -27,8 +27,21 @@ class TETMEND_API Registry {
 
   /// For operators that one function makes, with what it knows.
   using Maker = std::function<std::unique_ptr<Operator>(const ParameterValues&)>;
-  /// The same, of the program itself; `info.make` is not asked.
+  /// The same, of the program itself; `info.make` is not asked. It may look anywhere: passes make one part
+  /// of the mesh from now on.
   void add(const OperatorInfo& info, Maker make);
+
+  /// A measure that options and schedules may name: Standard::of(...).
+  /// @throws Error if there is one of that name
+  void add_measure(const Standard& own);
+  /// Those that were added.
+  std::span<const Standard> measures() const { return measures_; }
+  /// The standard of a measure by its name: "sine", "sine_and_length", or one that was added.
+  /// @throws Error for an unknown name, with the valid ones
+  Standard standard(std::string_view measure, const Goal& goal, double price) const;
+
+  /// An operator may look anywhere: parts of a mesh cannot be worked on at the same time.
+  bool needs_whole_mesh() const { return needs_whole_mesh_; }
 
   /// In the order of registration.
   std::span<const OperatorInfo* const> operators() const { return infos_; }
@@ -50,6 +63,8 @@ class TETMEND_API Registry {
   std::vector<const OperatorInfo*> infos_;
   std::vector<std::string> origins_;
   std::vector<Maker> makers_;
+  std::vector<Standard> measures_;
+  bool needs_whole_mesh_ = false;
 };
 
 }  // namespace tetmend

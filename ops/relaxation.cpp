@@ -33,7 +33,7 @@ void reconnect(OperatorContext& context, VertexHandle v, RelaxationState& state)
 void relax(OperatorContext& context, Transaction& transaction, VertexHandle v,
            const BallOptimiser::Limits& limits, RelaxationState& state, Where where) {
   for (int round = 0; round < 2; ++round) {
-    const auto ring = one_ring(context.mesh, v, context.workspace);
+    const auto ring = one_ring(context.mesh, v);
     state.neighbours.assign(ring.begin(), ring.end());
     state.neighbours.push_back(v);
     for (const VertexHandle w : state.neighbours) {

@@ -92,7 +92,7 @@ void FolderRun::split(const OutOfCore& files, const std::filesystem::path& folde
   check_empty();
   const FolderLock lock(folder, platform::Sharing::none);
   check_empty();  // what another program has made meanwhile
-  face::on_threads(options.threads, [&] {
+  face::on_threads(face::threads_of(options), [&] {
     Tools tools(options);
     OneRank ranks;
     SavedRun saved;
@@ -204,7 +204,7 @@ std::size_t FolderRun::improve(const std::vector<std::size_t>& pieces, const Opt
   }
   if (!options.trace.empty()) check_trace(pieces);
   const Options all = options_of_run(options);
-  return face::on_threads(options.threads, [&] {
+  return face::on_threads(face::threads_of(options), [&] {
     Tools tools(all);
     tools.watcher().begin(Stage::improving);
     OneRank ranks;
@@ -247,7 +247,7 @@ std::optional<Result> FolderRun::join(const Options& options, face::Portrait* po
                             now.open.size(), now.pieces.size(), fmt::join(now.open, ", ")));
   }
   const Options all = options_of_run(options);
-  return face::on_threads(options.threads, [&]() -> std::optional<Result> {
+  return face::on_threads(face::threads_of(options), [&]() -> std::optional<Result> {
     if (saved_.run.is_divided) {
       Tools tools(all);
       OneRank ranks;

@@ -432,7 +432,7 @@ Result improve(Mesh& mesh, const Options& options, const Division& division,
   Division limited = division;
   limited.pieces = limited_pieces(division.pieces, tets);
   check(options, limited);
-  return face::on_threads(options.threads, [&] {
+  return face::on_threads(face::threads_of(options), [&] {
     MemoryShelf memory;
     FolderShelf folder(scratch);
     Shelf& shelf = scratch.empty() ? static_cast<Shelf&>(memory) : folder;

@@ -420,7 +420,7 @@ Result improve_files(const OutOfCore& files, const Options& options, Division& d
   check_for_files(options);
   check_memory(files.memory);
   check(options, division);
-  return face::on_threads(options.threads,
+  return face::on_threads(face::threads_of(options),
                           [&] { return FileRun(files, options, division, ranks).run(); });
 }
 

@@ -92,6 +92,7 @@ void Run::divide_by_size() {
 }
 
 void Run::set_block_count(std::size_t blocks) {
+  if (registry_.needs_whole_mesh()) blocks = 1;
   block_count_ = std::clamp<std::size_t>(blocks, 1, kMostBlocks);
   partitions_ = {};
 }

@@ -184,7 +184,10 @@ int keep_measured(lua_State* lua) {
 }  // namespace
 
 ScriptHost::ScriptHost(Run* run, const ScheduleSettings& settings)
-    : run_(run), settings_(settings), lua_({}, [this] { watch(); }) {
+    : run_(run),
+      keeps_measure_(run != nullptr && run->mesh().standard().is_own()),
+      settings_(settings),
+      lua_({}, [this] { watch(); }) {
   add_words();
 }
 
@@ -534,7 +537,7 @@ void ScriptHost::goal(WordCall& call) {
   if (!is_sound(goal)) {
     throw Error(fmt::format("goal: {},{} is no goal", goal.min_angle, goal.max_angle));
   }
-  run_->set_standard(Standard(goal, now.terms(), now.price()));
+  run_->set_standard(now.with_goal(goal));
 }
 
 void ScriptHost::judge_by(WordCall& call) {
@@ -544,11 +547,13 @@ void ScriptHost::judge_by(WordCall& call) {
   const Arguments arguments = read_arguments(word, value, {});
   const ParameterValues numbers(word.name, word.numbers, arguments.numbers);
   const Standard now = run_->mesh().standard();
-  Standard::Terms terms = now.terms();
-  if (const ScriptValue* measure = value.field("measure")) {
-    terms = to_terms(read_text({"judge_by: measure"}, *measure));
-  }
-  run_->set_standard(Standard(now.goal(), terms, numbers.real("price")));
+  const ScriptValue* measure = value.field("measure");
+  const double price = numbers.real("price");
+  if (measure == nullptr) return run_->set_standard(now.with_price(price));
+  const Standard named =
+      run_->registry().standard(read_text({"judge_by: measure"}, *measure), now.goal(), price);
+  // Schedules say with which terms of tetmend's own measure they work.
+  run_->set_standard(keeps_measure_ && !named.is_own() ? now.with_price(price) : named);
 }
 
 void ScriptHost::hold_worst(WordCall& call) {

@@ -69,6 +69,7 @@ class ScriptHost {
   template <class Pass>
   void make_pass(WordCall& call, const Pass& pass);
   Run* run_;
+  bool keeps_measure_;  // the run began with one of a program or plugin
   const ScheduleSettings& settings_;
   ScheduleInfo info_;
   bool working_ = false;

@@ -37,9 +37,9 @@ std::vector<TetHandle> list_inverted(const TetMesh& mesh) {
 /// Walks over a mesh, and what they have seen.
 class TangleFinder {
  public:
-  TangleFinder(const TetMesh& mesh, Workspace& workspace, const TangleLimits& limits,
+  TangleFinder(const TetMesh& mesh, const TangleLimits& limits,
                const std::function<bool()>& proceed)
-      : mesh_(mesh), workspace_(workspace), limits_(limits), proceed_(proceed) {}
+      : mesh_(mesh), limits_(limits), proceed_(proceed) {}
 
   std::vector<Tangle> find() {
     const std::vector<TetHandle> inverted = list_inverted(mesh_);
@@ -58,7 +58,7 @@ class TangleFinder {
     constexpr std::size_t kStarsBetweenLooks = 256;
     if (++stars_ % kStarsBetweenLooks == 0) stopped_ = stopped_ || !proceed_();
     if (stopped_) return;
-    for (const TetHandle t : star(mesh_, v, workspace_)) visit(t);
+    for (const TetHandle t : star(mesh_, v)) visit(t);
   }
 
   /// Appends the free vertices of a tet that were not seen.
@@ -143,7 +143,6 @@ class TangleFinder {
   }
 
   const TetMesh& mesh_;
-  Workspace& workspace_;
   const TangleLimits& limits_;
   const std::function<bool()>& proceed_;
   std::vector<bool> seen_vertex_;
@@ -154,9 +153,9 @@ class TangleFinder {
 
 }  // namespace
 
-std::vector<Tangle> find_tangles(const TetMesh& mesh, Workspace& workspace,
-                                 const TangleLimits& limits, const std::function<bool()>& proceed) {
-  return TangleFinder(mesh, workspace, limits, proceed).find();
+std::vector<Tangle> find_tangles(const TetMesh& mesh, const TangleLimits& limits,
+                                 const std::function<bool()>& proceed) {
+  return TangleFinder(mesh, limits, proceed).find();
 }
 
 }  // namespace tetmend

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "kernel/tet_mesh.h"
-#include "kernel/workspace.h"
 #include "schedule/pass_options.h"
 
 namespace tetmend {
@@ -22,9 +21,8 @@ struct Tangle {
 /// Finds the inverted and flat tets with a free vertex, gathers those that are neighbours, and takes
 /// what reaches the limits, with the rings around. Those rings may join several. Where no part of
 /// the mesh is tangled, costs one scan and a walk around each inverted tet.
-/// @param workspace of the whole mesh
 /// @param proceed asked often; false: nothing is found
-std::vector<Tangle> find_tangles(const TetMesh& mesh, Workspace& workspace,
-                                 const TangleLimits& limits, const std::function<bool()>& proceed);
+std::vector<Tangle> find_tangles(const TetMesh& mesh, const TangleLimits& limits,
+                                 const std::function<bool()>& proceed);
 
 }  // namespace tetmend

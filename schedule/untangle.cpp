@@ -44,13 +44,12 @@ struct Moves {
   std::vector<HalfFace> links;
   std::vector<VertexMove> moves;
 
-  Moves(const TetMesh& mesh, Workspace& workspace, const Tangle& tangle,
-        std::span<const Point> points) {
+  Moves(const TetMesh& mesh, const Tangle& tangle, std::span<const Point> points) {
     std::vector<std::size_t> ends;
     for (std::size_t i = 0; i < tangle.free.size(); ++i) {
       const VertexHandle v = tangle.free[i];
       if (points[i] == mesh.point(v)) continue;
-      const auto around = link(mesh, v, workspace);
+      const auto around = link(mesh, v);
       links.insert(links.end(), around.begin(), around.end());
       ends.push_back(links.size());
       moves.push_back({v, points[i], {}});
@@ -99,10 +98,9 @@ class Untangling {
     });
     if (run_.cancelled()) return Verdict::no_improvement;
     if (context.trace != nullptr) context.trace->candidate_found();
-    Workspace& workspace = run_.worker().workspace();
-    const Moves moves(run_.mesh(), workspace, tangle, untangler.points());
+    const Moves moves(run_.mesh(), tangle, untangler.points());
     if (run_.cancelled()) return Verdict::no_improvement;
-    Transaction transaction(run_.mesh(), workspace);
+    Transaction transaction(run_.mesh(), run_.worker().workspace());
     const EditResult result = transaction.rearrange_vertices(moves.moves);
     if (result != EditResult::made) return to_verdict(result);
     if (!Judge::untangles().accepts({transaction, comparison})) return Verdict::no_improvement;
@@ -125,11 +123,10 @@ class Untangling {
 }  // namespace
 
 void untangle(Run& run, const UntangleOptions& options) {
-  const std::vector<Tangle> tangles =
-      find_tangles(run.mesh(), run.worker().workspace(), options.where, [&] {
-        run.check_time();
-        return !run.cancelled();
-      });
+  const std::vector<Tangle> tangles = find_tangles(run.mesh(), options.where, [&] {
+    run.check_time();
+    return !run.cancelled();
+  });
   if (tangles.empty()) return;
   PassScope scope(run, "untangle");
   run.begin_sweep("untangle");

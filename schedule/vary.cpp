@@ -179,8 +179,8 @@ class Variants {
     constexpr double kStep = 2;
     const double more = kStep * (number % 3);
     const Goal goal = standard.goal();
-    return Standard({std::min(goal.min_angle + more, 70.0), std::max(goal.max_angle - more, 71.0)},
-                    standard.terms(), standard.price());
+    return standard.with_goal(
+        {std::min(goal.min_angle + more, 70.0), std::max(goal.max_angle - more, 71.0)});
   }
 
   Outcome describe(const TetMesh& mesh, const Neighbourhood& neighbourhood,

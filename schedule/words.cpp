@@ -84,7 +84,9 @@ constexpr std::array<ParameterSpec, 2> kApplyNumbers = {{
 
 constexpr std::array<WordField, 1> kJudgeFields = {{
     {"measure", "name", "'sine_and_length'",
-     "'sine', or 'sine_and_length', which sees needles as well"},
+     "'sine', or 'sine_and_length', which sees needles as well; or a measure of a program or "
+     "plugin, which stays "
+     "where a run began with one"},
 }};
 constexpr std::array<ParameterSpec, 1> kJudgeNumbers = {{
     {"price", ParameterSpec::Kind::real, 0, 2, Standard::kUsualPrice,

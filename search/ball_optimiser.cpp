@@ -141,7 +141,22 @@ double BallOptimiser::worst_square(const Point& p, std::vector<Values>& squares,
   if (!complete_) complete_triangles(lanes_.data(), count);
   complete_ = true;
   if (squares.size() < count) squares.resize(lanes_.size());
+  if (standard_.is_own()) return own_worst_square(p, squares, least_square);
   return evaluate_ball(lanes_.data(), count, standard_, p, squares.data(), least_square, first_);
+}
+
+/// By a measure of a program, tet by tet.
+double BallOptimiser::own_worst_square(const Point& p, std::vector<Values>& squares,
+                                       double least_square) const {
+  double worst = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < size_; ++i) {
+    const double q = standard_.quality(p, corner(ax, i), corner(bx, i), corner(cx, i));
+    const double square = q * std::abs(q);
+    squares[i / kLanes].of[0][i % kLanes] = square;
+    worst = std::min(worst, square);
+    if (square < least_square) break;
+  }
+  return worst;
 }
 
 double BallOptimiser::worst(const Point& p) {
@@ -166,6 +181,23 @@ double BallOptimiser::total_deficit() const {
     }
   }
   return sum;
+}
+
+/// Of a measure of a program, by differences.
+void BallOptimiser::add_own_gradient(std::size_t i, const Point& p, unsigned& count) {
+  constexpr double kShare = 1e-6;  // of the edge to a corner
+  const Point a = corner(ax, i), b = corner(bx, i), c = corner(cx, i);
+  const double step = kShare * (a - p).norm();
+  if (!(step > 0)) return;
+  Point gradient;
+  for (int axis = 0; axis < 3; ++axis) {
+    Point more = p, less = p;
+    more[axis] += step;
+    less[axis] -= step;
+    gradient[axis] = (standard_.quality(more, a, b, c) - standard_.quality(less, a, b, c)) /
+                     (more[axis] - less[axis]);
+  }
+  if (gradient.allFinite()) gradients_[count++] = gradient;
 }
 
 /// Gradients of the terms of one tet that lie below the band. Which do is decided by squares: few
@@ -235,7 +267,12 @@ unsigned BallOptimiser::find_active(const Point& p, double worst, double width) 
   const double band_square = band * std::abs(band);
   unsigned count = 0;
   for (std::size_t i = 0; i < size_ && count < kMaxActive; ++i) {
-    if (square_[i / kLanes].of[0][i % kLanes] <= band_square) add_gradients(i, p, band, count);
+    if (square_[i / kLanes].of[0][i % kLanes] > band_square) continue;
+    if (standard_.is_own()) {
+      add_own_gradient(i, p, count);
+    } else {
+      add_gradients(i, p, band, count);
+    }
   }
   return count;
 }

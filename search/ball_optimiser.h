@@ -81,6 +81,8 @@ class BallOptimiser {
   double ascend(Point& p, double& best, double width, double length, double& step,
                 double least_step);
   void add_gradients(std::size_t tet, const Point& p, double band, unsigned& count);
+  double own_worst_square(const Point& p, std::vector<Values>& squares, double least_square) const;
+  void add_own_gradient(std::size_t tet, const Point& p, unsigned& count);
   void add_length_gradient(std::size_t tet, const Point& p, double band, unsigned& count);
   double local_length(const Point& p) const;
   Point place(const Point& p) const {

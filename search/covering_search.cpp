@@ -54,6 +54,9 @@ template <unsigned Worst>
 void BasicCoveringSearch<Worst>::begin(const CoveringProblem& problem) {
   size_ = static_cast<unsigned>(problem.ring.size());
   standard_ = problem.standard;
+  by_points_ = !standard_.is_even() || standard_.is_own();
+  weight_ = standard_.is_own() ? std::numeric_limits<double>::infinity()
+                               : std::max(standard_.acute2(), standard_.obtuse2());
   floor_ = problem.floor;
   evaluations_ = 0;
   a_ = problem.a;
@@ -87,7 +90,7 @@ Quality BasicCoveringSearch<Worst>::above_floor(double v6, double smallest, doub
   return q > floor_ ? q : 0;
 }
 
-/// Likewise where acute and obtuse angles differ in weight.
+/// Likewise where acute and obtuse angles differ in weight, and for a measure of a program.
 template <unsigned Worst>
 Quality BasicCoveringSearch<Worst>::uneven_above_floor(const Point& a, const Point& b,
                                                        const Point& c, const Point& d) const {
@@ -138,8 +141,7 @@ void BasicCoveringSearch<Worst>::evaluate(Triangle& t, unsigned i, unsigned k, u
   // The angles at one side of the triangle refuse most triangles, and cost little.
   constexpr double kRounding = 1e-12;
   const double r = std::max(floor_, Quality{0});
-  const double weight = std::max(standard_.acute2(), standard_.obtuse2());
-  const double least = r * r * nn * (1 - kRounding) / weight;
+  const double least = r * r * nn * (1 - kRounding) / weight_;
   const auto is_sharp = [&](const Pair& side) {
     return upper_v6 * upper_v6 * side.length2 < least * side.normal_a ||
            lower_v6 * lower_v6 * side.length2 < least * side.normal_b;
@@ -150,7 +152,7 @@ void BasicCoveringSearch<Worst>::evaluate(Triangle& t, unsigned i, unsigned k, u
   if (is_sharp(kj)) return;
   const Pair& ij = pair(i, j);
   if (is_sharp(ij)) return;
-  if (!standard_.is_even()) {
+  if (by_points_) {
     t.upper = uneven_above_floor(a_, p_[i], p_[k], p_[j]);
     if (t.upper <= 0) return;
     t.lower = uneven_above_floor(b_, p_[i], p_[j], p_[k]);
@@ -177,7 +179,7 @@ Quality BasicCoveringSearch<Worst>::side(unsigned i, unsigned j) {
   ++evaluations_;
   const double v6 = volume6(a_, b_, p_[i], p_[j]);
   if (!(v6 > 0)) return 0;
-  if (!standard_.is_even()) return uneven_above_floor(a_, b_, p_[i], p_[j]);
+  if (by_points_) return uneven_above_floor(a_, b_, p_[i], p_[j]);
   const Pair& chord = pair(std::min(i, j), std::max(i, j));
   const double na = chord.normal_a;
   const double nb = chord.normal_b;

@@ -143,6 +143,8 @@ class BasicCoveringSearch {
 
   unsigned size_ = 0;
   Standard standard_;
+  double weight_ = 1;       // of the sines that refuse a triangle at sight
+  bool by_points_ = false;  // qualities come from the points alone, not from squares shared
   Quality floor_ = 0;
   unsigned evaluations_ = 0;
   Point a_;

@@ -153,6 +153,11 @@ bool PatchOptimiser::measure(const std::vector<Point>& points, std::vector<Terms
       terms[n].fill(0);
       continue;
     }
+    if (standard_.is_own()) {
+      const auto& p = tet.corners;
+      terms[n] = all_terms(standard_.quality(p[0], p[1], p[2], p[3]));
+      continue;
+    }
     for (unsigned e = 0; e < 6; ++e) terms[n][e] = shape.v6 * shape.ratio(e, standard_);
     terms[n][kLength] = shape.length_term(standard_);
   }
@@ -208,6 +213,27 @@ double PatchOptimiser::norm(const std::vector<Terms>& terms, int doublings) cons
   return most * lower(sum, doublings);
 }
 
+/// Of the quality of a tet by a measure of a program, by differences.
+void PatchOptimiser::add_own_gradient(const Tet& tet, double weight,
+                                      std::vector<Point>& gradient) const {
+  constexpr double kShare = 1e-6;
+  for (unsigned i = 0; i < 4; ++i) {
+    if (tet.vertex[i] == kFixed) continue;
+    const auto v = static_cast<std::size_t>(tet.vertex[i]);
+    const double step = kShare * scale_[v];
+    const auto quality = [&](int axis, double offset) {
+      auto p = tet.corners;
+      p[i][axis] += offset;
+      return standard_.quality(p[0], p[1], p[2], p[3]);
+    };
+    Point slope;
+    for (int axis = 0; axis < 3; ++axis) {
+      slope[axis] = (quality(axis, step) - quality(axis, -step)) / (2 * step);
+    }
+    if (slope.allFinite()) gradient[v] += weight * scale_[v] * slope;
+  }
+}
+
 /// Of the norm at the current points, whose value is given.
 void PatchOptimiser::find_gradient(int doublings, double norm, std::vector<Point>& gradient) {
   constexpr double kNegligible = 1e-8;
@@ -221,6 +247,15 @@ void PatchOptimiser::find_gradient(int doublings, double norm, std::vector<Point
       if (tet.vertex[i] != kFixed) {
         tet.corners[i] = points_[static_cast<std::size_t>(tet.vertex[i])];
       }
+    }
+    if (standard_.is_own()) {
+      double weight = 0;
+      for (std::size_t e = 0; e < kTerms; ++e) {
+        const double share = (goals[e] - terms[e]) / norm;
+        if (share > 0) weight -= raise(share, doublings) / share;
+      }
+      add_own_gradient(tet, weight, gradient);
+      continue;
     }
     const auto& p = tet.corners;
     const Shape shape(p);

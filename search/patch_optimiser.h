@@ -81,6 +81,7 @@ class PatchOptimiser {
   void descend(int doublings, const Limits& limits);
   double norm(const std::vector<Terms>& terms, int doublings) const;
   void find_gradient(int doublings, double norm, std::vector<Point>& gradient);
+  void add_own_gradient(const Tet& tet, double weight, std::vector<Point>& gradient) const;
   void find_direction();
   bool search_line(int doublings, double slope, double& value);
   void remember();

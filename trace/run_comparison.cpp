@@ -288,7 +288,7 @@ RunComparison compare_runs(const TraceFile& a, const TraceFile& b) {
   of_b.seek(b.event_count());
   const Standard& by_a = of_a.mesh().standard();
   const Standard& by_b = of_b.mesh().standard();
-  comparison.same_goal = by_a.goal() == by_b.goal() && by_a.terms() == by_b.terms();
+  comparison.same_goal = by_a.goal() == by_b.goal() && by_a.measure_name() == by_b.measure_name();
   std::vector<BadTet> bad_a = bad_tets(of_a.mesh());
   std::vector<BadTet> bad_b = bad_tets(of_b.mesh());
   find_there(of_b.mesh(), bad_a);

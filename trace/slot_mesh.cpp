@@ -134,6 +134,7 @@ Quality SlotMesh::quality(TetHandle t) const {
 
 bool misses_goal(const SlotMesh& mesh, TetHandle t) {
   if (mesh.quality(t) >= kBadThreshold) return false;
+  if (mesh.standard().terms() != Standard::Terms::sine_and_length) return true;
   const TetVertices& v = mesh.vertices(t);
   return static_cast<Quality>(mesh.standard().of_angles().quality(
              mesh.point(v[0]), mesh.point(v[1]), mesh.point(v[2]), mesh.point(v[3]))) <

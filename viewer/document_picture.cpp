@@ -268,8 +268,8 @@ void Document::mark_caller(const CallStudy& study) {
   const auto removal = removal_of(file, study.call);
   if (!removal || !removal->face) return;
   const auto& f = *removal->face;
-  for (const TetEdge e : shell(mesh_, *caller_edge_)) {
-    if (mesh_.local_index(e.tet(), f[2]) >= 4) continue;
+  for (const TetHandle t : ring(mesh_, *caller_edge_).tets) {
+    if (mesh_.local_index(t, f[2]) >= 4) continue;
     return mark(
         highlight_face(mesh_, f, ball_.centre), kFaceToRemoveColour,
         fmt::format("face f to remove, {} {} {}", f[0].index(), f[1].index(), f[2].index()));
@@ -302,8 +302,8 @@ void Document::name_call(const CallStudy& study) {
     }
   }
   if (!caller_edge_) return;
-  for (const TetEdge e : shell(mesh_, *caller_edge_)) {
-    for (const VertexHandle v : mesh_.vertices(e.tet())) add(v);
+  for (const TetHandle t : ring(mesh_, *caller_edge_).tets) {
+    for (const VertexHandle v : mesh_.vertices(t)) add(v);
   }
 }
 

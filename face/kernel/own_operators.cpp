@@ -2,6 +2,8 @@
 // Attempts of operators that a program wrote: propose, edit, judge, keep or undo.
 #include "face/kernel/own_operators.h"
 
+#include <utility>
+
 #include <fmt/format.h>
 
 #include "face/kernel/operator_tools.h"
@@ -35,6 +37,16 @@ void Operators::add(std::string_view name, std::string_view help, TargetKind tar
                                                               std::move(judge), std::move(propose)})
                           .second;
   if (!is_new) throw Error(fmt::format("operator '{}' is registered twice", name));
+}
+
+Standard Operators::add_measure(OwnMeasure measure) {
+  Standard standard = Standard::of(std::move(measure), {}, Standard::kUsualPrice);
+  for (const Standard& known : measures_) {
+    if (known.measure_name() == standard.measure_name()) {
+      throw Error(fmt::format("measure '{}' is registered twice", standard.measure_name()));
+    }
+  }
+  return measures_.emplace_back(std::move(standard));
 }
 
 const Operators::Own* Operators::find(std::string_view name) const {

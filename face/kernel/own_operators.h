@@ -111,6 +111,11 @@ class TETMEND_API Operators {
         });
   }
 
+  /// A measure for Options::measure, for `judge_by` of schedules and for Standard::of(): larger is
+  /// better, and a tet below `good` is bad. @throws Error as Standard::of(), and if there is one of that name
+  Standard add_measure(OwnMeasure measure);
+  std::span<const Standard> measures() const { return measures_; }
+
   /// An operator of the program.
   struct Own {
     TargetKind target{};
@@ -128,6 +133,7 @@ class TETMEND_API Operators {
            std::function<Verdict(const TetMesh&, Target, Proposal&)> propose);
 
   std::map<std::string, Own, std::less<>> operators_;
+  std::vector<Standard> measures_;
 };
 
 /// See attempt() and try_only().

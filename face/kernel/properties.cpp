@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include <fmt/format.h>
+
 namespace tetmend::kernel {
 
 namespace {
@@ -28,6 +30,16 @@ std::uint32_t nearest_old(std::span<const Journal::RemovedTet> old, const TetVer
 }
 
 }  // namespace
+
+void PropertyArray::refuse(const DataArray& from, std::size_t components) const {
+  throw Error(fmt::format("array '{}' has {} numbers each, and the property {}", from.name,
+                          from.components, components));
+}
+
+void PropertyArray::refuse(std::uint32_t number, double value) const {
+  throw Error(fmt::format("array '{}': {} at {} is no value of the type of the property", name_,
+                          value, number));
+}
 
 PropertyTable::PropertyTable(const PropertyTable& other) {
   for (const auto& array : other.arrays_) arrays_.push_back(array->clone());

@@ -6,6 +6,8 @@
 // So nothing is copied for what an edit removes.
 #pragma once
 
+#include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <exception>
@@ -19,6 +21,7 @@
 #include <vector>
 
 #include <tetmend/api.h>
+#include <tetmend/data.h>
 
 #include "kernel/edit.h"
 #include "kernel/error.h"
@@ -37,6 +40,43 @@ enum class NewTets : std::uint8_t {
 /// already. An exception undoes the edit and comes out of the call that made it.
 template <class T>
 using TetRule = std::function<T(std::span<const T> old, TetHandle made)>;
+
+/// How a value lies in the arrays of a file: as so many numbers of one type. 0: not at all.
+template <class T>
+struct InFiles {
+  static constexpr std::size_t components = 0;
+};
+template <class T>
+requires std::is_arithmetic_v<T>
+struct InFiles<T> {
+  static constexpr std::size_t components = 1;
+  using Number =
+      std::conditional_t<std::is_floating_point_v<T>,
+                         std::conditional_t<std::is_same_v<T, float>, float, double>,
+                         std::conditional_t<(sizeof(T) < 4 || std::is_same_v<T, std::int32_t>),
+                                            std::int32_t, std::int64_t>>;
+  static const T& at(const T& value, std::size_t) { return value; }
+  static void set(T& value, std::size_t, T number) { value = number; }
+};
+template <class T, std::size_t N>
+requires std::is_arithmetic_v<T>
+struct InFiles<std::array<T, N>> {
+  static constexpr std::size_t components = N;
+  using Number = typename InFiles<T>::Number;
+  static const T& at(const std::array<T, N>& value, std::size_t i) { return value[i]; }
+  static void set(std::array<T, N>& value, std::size_t i, T number) { value[i] = number; }
+};
+template <>
+struct InFiles<Point> {
+  static constexpr std::size_t components = 3;
+  using Number = double;
+  static double at(const Point& value, std::size_t i) {
+    return value[static_cast<Eigen::Index>(i)];
+  }
+  static void set(Point& value, std::size_t i, double number) {
+    value[static_cast<Eigen::Index>(i)] = number;
+  }
+};
 
 /// Values by slot. No std::vector: that of bool has no addresses.
 template <class T>
@@ -120,9 +160,18 @@ class TETMEND_API PropertyArray {
   virtual void forget() noexcept = 0;
   virtual void gather(std::span<const std::uint32_t> kept) = 0;
   virtual std::unique_ptr<PropertyArray> clone() const = 0;
+  /// Values of an array of a Mesh. @param numbers in it, by slot; kNoNumber: none
+  /// @throws Error where they do not fit
+  virtual void read(const DataArray& from, std::span<const std::uint32_t> numbers) = 0;
+  /// An array of a Mesh, of these slots in turn.
+  virtual DataArray to_data(std::span<const std::uint32_t> slots) const = 0;
+  static constexpr std::uint32_t kNoNumber = 0xFFFFFFFFu;
+  bool is_in_files = false;  ///< TetMesh::to_mesh() writes it
 
  protected:
   PropertyArray(const PropertyArray&) = default;
+  [[noreturn]] void refuse(const DataArray& from, std::size_t components) const;
+  [[noreturn]] void refuse(std::uint32_t number, double value) const;
 
  private:
   std::string name_;
@@ -163,10 +212,48 @@ class ArrayOf final : public PropertyArray {
   void forget() noexcept override { journal_.cut(0); }
   void gather(std::span<const std::uint32_t> kept) override { values.gather(kept); }
   std::unique_ptr<PropertyArray> clone() const override { return std::make_unique<ArrayOf>(*this); }
+  void read(const DataArray& from, std::span<const std::uint32_t> numbers) override {
+    if (from.components != InFiles<T>::components) refuse(from, InFiles<T>::components);
+    if constexpr (InFiles<T>::components > 0) {
+      std::visit([&](const auto& all) { read_from(all, numbers); }, from.values);
+    }
+  }
+  DataArray to_data(std::span<const std::uint32_t> slots) const override {
+    DataArray out{.name = name(), .components = InFiles<T>::components, .values = {}};
+    if constexpr (InFiles<T>::components > 0) {
+      using Number = typename InFiles<T>::Number;
+      std::vector<Number> numbers;
+      numbers.reserve(slots.size() * out.components);
+      for (const std::uint32_t slot : slots) {
+        for (std::size_t i = 0; i < out.components; ++i) {
+          numbers.push_back(static_cast<Number>(InFiles<T>::at(values[slot], i)));
+        }
+      }
+      out.values = std::move(numbers);
+    }
+    return out;
+  }
 
   Values<T> values;
 
  private:
+  template <class Numbers>
+  void read_from(const Numbers& all, std::span<const std::uint32_t> numbers) {
+    constexpr std::size_t kComponents = InFiles<T>::components;
+    using Own = std::decay_t<decltype(InFiles<T>::at(initial_, 0))>;
+    for (std::size_t slot = 0; slot < numbers.size(); ++slot) {
+      if (numbers[slot] == kNoNumber) continue;
+      for (std::size_t i = 0; i < kComponents; ++i) {
+        const auto number = all[kComponents * numbers[slot] + i];
+        const auto own = static_cast<Own>(number);
+        // Real numbers may be rounded; whole ones are what they are.
+        const bool fits = std::is_floating_point_v<Own> ||
+                          static_cast<double>(own) == static_cast<double>(number);
+        if (!fits) refuse(numbers[slot], static_cast<double>(number));
+        InFiles<T>::set(values[slot], i, own);
+      }
+    }
+  }
   void ask_rule(const Replaced& replaced) {
     old_.cut(0);
     for (const Journal::RemovedTet& old : replaced.old) old_.push_back(values[old.tet.index()]);

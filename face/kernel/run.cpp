@@ -3,7 +3,6 @@
 #include "face/kernel/run.h"
 
 #include <algorithm>
-#include <deque>
 #include <optional>
 
 #include <fmt/format.h>
@@ -70,76 +69,16 @@ PassDone told_of(const PassRecord& record) {
 
 }  // namespace
 
-Verdict OwnOperator::evaluate(OperatorContext&, Target target, OwnState& state) const {
-  state.proposal = {};
-  return own_.propose(look_, target, state.proposal);
-}
-
-EditResult OwnOperator::make(const OperatorContext& context, tetmend::Transaction& transaction,
-                             const Proposal& proposal) const {
-  const auto is_there = [&](VertexHandle v) {
-    return v.index() < context.mesh.vertex_slots() && !context.mesh.is_deleted(v);
-  };
-  EditResult result = EditResult::not_closed;
-  if (!proposal.old_.empty()) {
-    const bool fits =
-        std::none_of(proposal.old_.begin(), proposal.old_.end(),
-                     [&](TetHandle t) { return look_.is_deleted(t); }) &&
-        std::all_of(proposal.created_.begin(), proposal.created_.end(), [&](const TetVertices& v) {
-          return std::all_of(v.begin(), v.end(), is_there);
-        });
-    if (fits) result = transaction.replace_cavity(proposal.old_, proposal.created_);
-    if (result != EditResult::made) return result;
-  }
-  if (!proposal.move_) return result;
-  const auto& [v, point] = *proposal.move_;
-  if (!is_there(v) || !point.allFinite()) return EditResult::not_closed;
-  const Link link = look_.link(v);
-  if (link.empty()) return EditResult::not_closed;
-  return transaction.move_vertex(v, context.mesh.scale().to_work(point),
-                                 {link.data(), link.size()});
-}
-
-Verdict OwnOperator::apply(OperatorContext& context, Target, tetmend::Transaction& transaction,
-                           OwnState& state) const {
-  const EditResult made = make(context, transaction, state.proposal);
-  const auto& is_better = own_.judge.criterion();
-  if (made != EditResult::made || !is_better) return to_verdict(made);
-  const auto to_file = [&](std::span<const std::array<Point, 4>> tets) {
-    std::vector<std::array<Point, 4>> corners(tets.begin(), tets.end());
-    for (auto& tet : corners) {
-      for (Point& p : tet) p = context.mesh.scale().to_file(p);
-    }
-    return corners;
-  };
-  const auto changed = transaction.tets();
-  const auto before = to_file(changed.before);
-  const auto now = to_file(changed.now);
-  return is_better(before, now) ? Verdict::accepted : Verdict::no_improvement;
-}
-
 struct Run::Inside {
   Inside(TetMesh& mesh_of_program, RunOptions options_of_run)
       : mesh(mesh_of_program), options(options_of_run), attempts_left(options.most_attempts) {
     face::check_threads(options.threads);
-    if (options.operators == nullptr) return;
-    for (const auto& [name, own] : options.operators->all()) {
-      infos.push_back({.name = name,
-                       .target = own.target,
-                       .help = own.help,
-                       .parameters = {},
-                       .make = nullptr});
-      const OperatorInfo& info = infos.back();
-      registry.add(info, [this, &info, &own = own](const ParameterValues&) {
-        return std::make_unique<OwnOperator>(info, own, mesh);
-      });
-    }
+    if (options.operators != nullptr) add_to(registry, *options.operators, &mesh);
   }
 
   TetMesh& mesh;
   const RunOptions options;
   Registry registry = Registry::builtin();
-  std::deque<OperatorInfo> infos;
   std::optional<tetmend::Run> run;  // while the mesh is as its last pass has left it
   std::size_t stamp = 0;            // of the mesh then
   std::size_t attempts_left;
@@ -161,7 +100,6 @@ std::vector<PassDone> Run::make(const Pass& pass) {
   PropertyKeeper& keeper = *mesh.keeper_;
   EditTeller teller(keeper.is_needed() ? &keeper : nullptr, in.options.observer);
   run.set_trace(teller.is_needed() ? &teller : nullptr);
-  if (in.options.operators != nullptr) run.set_block_count(1);
   run.set_most_tets(in.options.most_tets);
   run.set_most_attempts(in.attempts_left);
   run.set_cancel_flag(in.options.cancel);
@@ -179,7 +117,8 @@ std::vector<PassDone> Run::make(const Pass& pass) {
   keeper.start();
   if (mesh.locks_ != nullptr) hold(mesh.mesh_, [&](VertexHandle v) { return mesh.has_lock(v); });
   try {
-    face::on_threads(in.options.threads, [&] { pass(run); });
+    const int threads = in.options.operators == nullptr ? in.options.threads : 1;
+    face::on_threads(threads, [&] { pass(run); });
   } catch (...) {
     leave();
     in.run.reset();
@@ -216,7 +155,7 @@ QualityIndicators Run::indicators() {
 void Run::set_goal(const Goal& goal) {
   if (!is_sound(goal)) throw OptionError("goal", "goal: no angles of tets");
   const Standard& now = inside_->mesh.mesh_.standard();
-  make([&](tetmend::Run& run) { run.set_standard(Standard(goal, now.terms(), now.price())); });
+  make([&](tetmend::Run& run) { run.set_standard(now.with_goal(goal)); });
 }
 
 PassDone Run::local_reconnection(const LocalReconnectionOptions& options) {

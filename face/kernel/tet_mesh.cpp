@@ -91,6 +91,34 @@ Mesh mesh_of(const PointView& points, std::span<const std::array<std::uint32_t, 
   return Mesh(std::move(arrays));
 }
 
+/// Puts the properties that are for files among the arrays of a mesh, in its order.
+void write_data(const PropertyKeeper& keeper, const tetmend::TetMesh& mesh, MeshData& data) {
+  const auto write = [](const PropertyTable& table, const auto& slots_of,
+                        std::vector<DataArray>& arrays) {
+    for (const auto& property : table.all()) {
+      if (!property->is_in_files) continue;
+      const auto same = std::find_if(arrays.begin(), arrays.end(), [&](const DataArray& array) {
+        return array.name == property->name();
+      });
+      DataArray made = property->to_data(slots_of());
+      if (same == arrays.end()) {
+        arrays.push_back(std::move(made));
+      } else {
+        *same = std::move(made);
+      }
+    }
+  };
+  write(
+      keeper.tets, [&] { return live<TetHandle>(mesh, mesh.tet_slots()); }, data.tet_data);
+  const auto points = [&] {
+    const MeshView view(mesh);
+    const auto slots = view.vertex_slots();
+    if (slots.empty()) return live<VertexHandle>(mesh, mesh.vertex_slots());
+    return std::vector<std::uint32_t>(slots.begin(), slots.end());
+  };
+  write(keeper.vertices, points, data.point_data);
+}
+
 }  // namespace
 
 void check_layout(const Layout& of_program) {
@@ -105,11 +133,38 @@ void check_layout(const Layout& of_program) {
 }
 
 TetMesh::~TetMesh() = default;
-TetMesh::TetMesh(TetMesh&& other) noexcept = default;
-TetMesh& TetMesh::operator=(TetMesh&& other) noexcept = default;
+TetMesh::TetMesh(TetMesh&& other) noexcept
+    : own_(std::move(other.mesh_)),
+      loose_(other.loose_),
+      open_(other.open_),
+      stamp_(other.stamp_),
+      workspace_(std::move(other.workspace_)),
+      keeper_(std::move(other.keeper_)),
+      locks_(other.locks_),
+      origin_(std::move(other.origin_)),
+      tools_(std::move(other.tools_)) {}
+
+TetMesh& TetMesh::operator=(TetMesh&& other) noexcept {
+  mesh_ = std::move(other.mesh_);
+  loose_ = other.loose_;
+  open_ = other.open_;
+  stamp_ = other.stamp_;
+  workspace_ = std::move(other.workspace_);
+  keeper_ = std::move(other.keeper_);
+  locks_ = other.locks_;
+  origin_ = std::move(other.origin_);
+  tools_ = std::move(other.tools_);
+  return *this;
+}
+
+TetMesh::TetMesh(tetmend::TetMesh& of_others)
+    : mesh_(of_others),
+      loose_(count_loose(of_others)),
+      keeper_(std::make_unique<PropertyKeeper>()),
+      origin_(std::make_unique<Origin>()) {}
 
 TetMesh::TetMesh(const TetMesh& other)
-    : mesh_((other.check_closed("a copy is made"), other.mesh_)),
+    : own_((other.check_closed("a copy is made"), other.mesh_)),
       loose_(other.loose_),
       workspace_(std::make_unique<Workspace>(mesh_)),
       keeper_(std::make_unique<PropertyKeeper>(*other.keeper_)),
@@ -167,6 +222,7 @@ Mesh TetMesh::to_mesh() const {
     face::carry(origin_->data, vertex_map, tet_map, {}, data);
     scale.to_file(data.points);
   }
+  write_data(*keeper_, mesh_, data);
   data.notes = origin_->notes;
   return MeshAccess::make(std::move(data));
 }
@@ -187,7 +243,8 @@ void TetMesh::write_points(double* first, std::ptrdiff_t stride) const {
 }
 
 void TetMesh::refuse_open(std::string_view what) {
-  throw Error(fmt::format("{} while a transaction is open", what));
+  throw Error(
+      fmt::format("{} while a transaction is open: it ends with its scope, kept or not", what));
 }
 
 void TetMesh::refuse_unknown(std::string_view what, std::string_view kind, std::uint32_t number,
@@ -212,6 +269,45 @@ void TetMesh::set_lock(VertexHandle v, bool is_locked) {
   locks.values[v.index()] = is_locked;
 }
 
+/// In the arrays of the Mesh, by slot.
+std::vector<std::uint32_t> TetMesh::numbers_of_tets() const {
+  std::vector<std::uint32_t> numbers(tet_slots(), PropertyArray::kNoNumber);
+  for (const TetHandle t : tets()) {
+    if (!mesh_.is_created(t)) numbers[t.index()] = origin_->tet_numbers[t.index()];
+  }
+  return numbers;
+}
+
+std::vector<std::uint32_t> TetMesh::numbers_of_vertices() const {
+  std::vector<std::uint32_t> numbers(vertex_slots(), PropertyArray::kNoNumber);
+  for (std::uint32_t i = 0; i < numbers.size(); ++i) {
+    const VertexHandle v(i);
+    if (mesh_.is_deleted(v) || mesh_.origin(v) == tetmend::TetMesh::kNotFromFile) continue;
+    numbers[i] = mesh_.origin(v);
+  }
+  return numbers;
+}
+
+void TetMesh::carry(PropertyTable& table, std::string_view name) {
+  PropertyArray& property = *table.find(name);
+  if (property.is_in_files) return;
+  const bool is_of_tets = &table == &keeper_->tets;
+  const MeshData& data = origin_->data;
+  if (!is_of_tets && !data.mid_nodes.empty()) {
+    throw Error(
+        fmt::format("point_data '{}': a mesh with mid-side nodes has more points than "
+                    "vertices",
+                    name));
+  }
+  const auto& arrays = is_of_tets ? data.tet_data : data.point_data;
+  const auto found = std::find_if(arrays.begin(), arrays.end(),
+                                  [&](const DataArray& array) { return array.name == name; });
+  if (found != arrays.end()) {
+    property.read(*found, is_of_tets ? numbers_of_tets() : numbers_of_vertices());
+  }
+  property.is_in_files = true;
+}
+
 /// Free slots are others than before.
 void TetMesh::renew_workspace() {
   ++stamp_;
@@ -224,6 +320,12 @@ void TetMesh::listen() {
   locks_ = dynamic_cast<const ArrayOf<bool>*>(keeper_->vertices.find(kLockName));
   keeper_->set_locks(locks_);
   workspace_->set_listener(keeper_->is_needed() ? keeper_.get() : nullptr);
+}
+
+void TetMesh::set_standard(const Standard& standard) {
+  check_closed("set_standard()");
+  mesh_.set_standard(standard);
+  ++stamp_;
 }
 
 bool TetMesh::remove_tet_property(std::string_view name) {

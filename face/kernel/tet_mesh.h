@@ -43,9 +43,11 @@ using tetmend::Label;
 using tetmend::load;
 using tetmend::Mesh;
 using tetmend::MeshArrays;
+using tetmend::OwnMeasure;
 using tetmend::Point;
 using tetmend::Quality;
 using tetmend::save;
+using tetmend::Standard;
 using tetmend::TetEdge;
 using tetmend::TetHandle;
 using tetmend::TetVertices;
@@ -171,7 +173,7 @@ class TETMEND_API TetMesh {
   /// Must stay: named by the Mesh, or between two labels.
   bool is_constrained(HalfFace f) const { return mesh_.is_constrained(f); }
   Label label(TetHandle t) const { return mesh_.label(t); }
-  /// 1 where a dihedral angle just reaches the goal of 30 and 150 degrees, less for a worse one, 0
+  /// By the standard: 1 where a dihedral angle just reaches the goal of 30 and 150 degrees, less for a worse one, 0
   /// for a flat tet, negative for an inverted one.
   Quality quality(TetHandle t) const { return mesh_.quality(t); }
 
@@ -217,8 +219,8 @@ class TETMEND_API TetMesh {
 
   // --- properties --------------------------------------------------------------------------------
   /// The property of the tets with that name, or a new one. It follows edits and their undo,
-  /// garbage collection and sorting. What a program writes itself, undo does not take back. The
-  /// names of to_mesh().tet_data() are others.
+  /// garbage collection and sorting. What a program writes itself, undo does not take back. Arrays of the
+  /// Mesh with the same name are others, see tet_data().
   /// @param rule what the tets that an edit makes begin with: NewTets, or a function, see TetRule
   /// @throws Error while a transaction is open, or when a property of that name has another type
   template <class T>
@@ -239,9 +241,42 @@ class TETMEND_API TetMesh {
     return VertexProperty<T>(find_or_add<T>(keeper_->vertices, name, std::move(initial), false,
                                             nullptr, vertex_slots()));
   }
+  /// The same, carried from and to the arrays of a Mesh: it begins with the values of the array of that
+  /// name, if there is one, and to_mesh() writes it. T is a number, an std::array of numbers, or Point.
+  /// Tets that were made since have the initial value.
+  /// @throws Error also for an array with another number of components, or of numbers that T has not
+  template <class T>
+  TetProperty<T> tet_data(std::string_view name, T initial = {}, NewTets rule = NewTets::initial) {
+    static_assert(InFiles<T>::components > 0, "files have no such values");
+    const auto property = tet_property<T>(name, std::move(initial), rule);
+    carry(keeper_->tets, name);
+    return property;
+  }
+  template <class T, class Rule>
+  requires std::invocable<Rule, std::span<const T>, TetHandle> TetProperty<T> tet_data(
+      std::string_view name, T initial, Rule rule) {
+    static_assert(InFiles<T>::components > 0, "files have no such values");
+    const auto property = tet_property<T>(name, std::move(initial), std::move(rule));
+    carry(keeper_->tets, name);
+    return property;
+  }
+  /// Likewise. @throws Error also for a mesh with mid-side nodes: it has more points than vertices
+  template <class T>
+  VertexProperty<T> point_data(std::string_view name, T initial = {}) {
+    static_assert(InFiles<T>::components > 0, "files have no such values");
+    const auto property = vertex_property<T>(name, std::move(initial));
+    carry(keeper_->vertices, name);
+    return property;
+  }
   /// False if there is none. @throws Error while a transaction is open.
   bool remove_tet_property(std::string_view name);
   bool remove_vertex_property(std::string_view name);
+
+  // --- what tets are judged by --------------------------------------------------------------------
+  /// From now on quality(), attempts and passes go by this standard: another goal, or a measure of the
+  /// program, see Standard::of(). Cost: linear. @throws Error while a transaction is open
+  void set_standard(const Standard& standard);
+  const Standard& standard() const { return mesh_.standard(); }
 
   // --- the mesh as a whole; handles made before are invalid then ---------------------------------
   /// Removes deleted slots; the order of the others stays. @throws Error while a transaction is
@@ -256,11 +291,15 @@ class TETMEND_API TetMesh {
  private:
   friend class Transaction;
   friend class Run;
+  friend class OwnOperator;
   friend struct OperatorTools;
   friend struct LiveTet;
   friend struct LiveVertex;
   friend struct LiveFace;
   friend struct BoundaryFace;
+
+  /// A look at a mesh of others, which must outlive it: for const members alone.
+  explicit TetMesh(tetmend::TetMesh& of_others);
 
   static constexpr Layout kLayout = {TETMEND_VERSION_TEXT, sum_of_sizes()};
   TetMesh(Mesh mesh, Layout layout);
@@ -288,6 +327,10 @@ class TETMEND_API TetMesh {
     return locks_ != nullptr && v.index() < locks_->values.size() && locks_->values[v.index()];
   }
   void set_lock(VertexHandle v, bool is_locked);
+  /// A property becomes an array of to_mesh(), and begins as that of the Mesh, unless it is one already.
+  void carry(PropertyTable& table, std::string_view name);
+  std::vector<std::uint32_t> numbers_of_tets() const;
+  std::vector<std::uint32_t> numbers_of_vertices() const;
   void listen();
   void renew_workspace();
   Renumbering follow(const std::vector<std::uint32_t>& vertices, std::size_t vertex_slots,
@@ -310,7 +353,8 @@ class TETMEND_API TetMesh {
     return *array;
   }
 
-  tetmend::TetMesh mesh_;
+  tetmend::TetMesh own_;  // empty in a look
+  tetmend::TetMesh& mesh_ = own_;
   std::size_t loose_ = 0;  // points of no tet
   unsigned open_ = 0;      // transactions
   std::size_t stamp_ = 0;  // raised by whatever may use free slots, or move handles

@@ -12,16 +12,19 @@
 
 #include <tetmend/api.h>
 
-#include "face/kernel/few.h"
 #include "kernel/handles.h"
+#include "kernel/shell.h"
+#include "kernel/star.h"
 
 namespace tetmend::kernel {
 
 class TetMesh;
 
-using Star = Few<TetHandle, 48>;        ///< the tets around a vertex
-using Link = Few<HalfFace, 48>;         ///< for each of them its face opposite the vertex
-using OneRing = Few<VertexHandle, 32>;  ///< the other ends of the edges of a vertex
+using tetmend::Few;
+using tetmend::Link;
+using tetmend::OneRing;
+using tetmend::Ring;
+using tetmend::Star;
 
 /// The tets behind the faces of one: four, or fewer at the boundary.
 class Neighbours {
@@ -65,17 +68,6 @@ class Neighbours {
 
  private:
   std::array<HalfFace, 4> twins_;
-};
-
-/// The tets around an edge (a, b) in turn: tets[i] is (a, b, vertices[i], vertices[i + 1]), and
-/// positive. A closed ring has as many vertices as tets. An open one goes from one face of the
-/// boundary to the other, and has one vertex more.
-struct TETMEND_API Ring {
-  VertexHandle a;
-  VertexHandle b;
-  bool closed = false;
-  Few<TetHandle, 16> tets;
-  Few<VertexHandle, 16> vertices;
 };
 
 /// Lists for all vertices at once: rows[v] is that of a vertex, empty for one of no tet.

@@ -35,6 +35,10 @@
 
 namespace tetmend {
 
+namespace kernel {
+class Operators;  // <tetmend/operators.h>
+}
+
 /// What improve() is doing.
 enum class Stage : std::uint8_t {
   building,   ///< adjacency, order along a space-filling curve
@@ -64,12 +68,16 @@ struct Options {
   std::string script = {};         ///< text of a schedule, instead of `schedule`; empty: none
   std::vector<std::pair<std::string, std::string>> set = {};  ///< its parameters: {"goal", "20"}
   std::vector<std::filesystem::path> plugin = {};             ///< further operators
+  /// Operators and measures of the program, see <tetmend/operators.h>: schedules and `measure` know them by
+  /// their names. The run uses one thread then. They must outlive it. Null: none.
+  const kernel::Operators* operators = nullptr;
   /// What the mesh is for: "explicit" time integration, an "implicit" solver, finite "volumes",
   /// "angles" alone, or empty: any solver. All but "angles" keep the stable step, no larger angle than
   /// was there where none missed the goal, and bound the number of tets unless `tets` does.
   std::string purpose = {};
   Goal goal = {};  ///< tets that miss it are bad
-  /// What tets are judged by: "sine_and_length" sees needles as well, "sine" angles alone.
+  /// What tets are judged by: "sine_and_length" sees needles as well, "sine" angles alone. Or a measure
+  /// of `operators` or of a plugin.
   std::string measure = "sine_and_length";
   int threads = 1;  ///< 1 to 1024; the result is the same for every number
   /// Seconds; what is reached by then is the result. 0: none. Reading and measuring do not count.

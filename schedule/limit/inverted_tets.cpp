@@ -10,16 +10,15 @@
 
 #include "kernel/chunks.h"
 #include "kernel/star.h"
-#include "kernel/workspace.h"
 #include "search/star_kernel.h"
 
 namespace tetmend {
 
 namespace {
 
-bool sees_its_link(const TetMesh& mesh, VertexHandle v, Workspace& workspace) {
+bool sees_its_link(const TetMesh& mesh, VertexHandle v) {
   std::vector<std::array<Point, 3>> faces;
-  for (const HalfFace f : link(mesh, v, workspace)) {
+  for (const HalfFace f : link(mesh, v)) {
     // Counterclockwise from outside: turned, so that the vertex is on the positive side.
     const auto corners = mesh.vertices(f);
     faces.push_back({mesh.point(corners[0]), mesh.point(corners[2]), mesh.point(corners[1])});
@@ -35,12 +34,10 @@ class Seers {
     std::sort(vertices_.begin(), vertices_.end());
     vertices_.erase(std::unique(vertices_.begin(), vertices_.end()), vertices_.end());
     sees_.resize(vertices_.size());
-    const Workspace first(mesh);
     constexpr std::size_t kAtOnce = 256;
     const auto ask = [&](std::size_t begin, std::size_t end) {
-      Workspace workspace = Workspace::without_slots(first);
       for (std::size_t i = begin; i < end; ++i) {
-        sees_[i] = sees_its_link(mesh, vertices_[i], workspace);
+        sees_[i] = sees_its_link(mesh, vertices_[i]);
       }
     };
     for_chunks(vertices_.size(), ask, kAtOnce);

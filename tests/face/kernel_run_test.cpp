@@ -110,7 +110,8 @@ TEST_CASE("the mesh of a program may be edited between passes, which begin anew 
   run.local_reconnection();
   CHECK(mesh.check().empty());
   Transaction edit(mesh);
-  CHECK(message_of([&] { run.smooth(); }) == "a pass while a transaction is open");
+  CHECK(message_of([&] { run.smooth(); }) ==
+        "a pass while a transaction is open: it ends with its scope, kept or not");
 }
 
 TEST_CASE("operators of a program are tried by passes, compositions and scripts") {

@@ -9,6 +9,7 @@
 #include <ranges>
 #include <set>
 #include <string>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -331,6 +332,159 @@ TEST_CASE("random edits that are undone leave mesh and properties of three types
   CHECK(tetmend::measure(mesh.to_mesh()).statistics.inverted == 0);
 }
 
+TEST_CASE("a million random edits, undone or kept, leave a sound mesh and properties in step") {
+  constexpr std::size_t kEdits = 1'000'000;
+  TetMesh mesh = ball(40);
+  auto number = mesh.tet_property<int>("number", -1);
+  auto name = mesh.tet_property<std::string>("name", "new", NewTets::inherited);
+  auto sum = mesh.tet_property<double>(
+      "sum", 0, [](std::span<const double> old, TetHandle) { return old[0] + 1; });
+  for (const TetHandle t : mesh.tets()) {
+    number[t] = static_cast<int>(t.index());
+    name[t] = "a name that is too long to lie in the string itself";
+  }
+  const std::string inherited = name[*mesh.tets().begin()];
+  std::mt19937 random(11);
+  std::size_t attempts = 0, made = 0;
+  for (std::size_t round = 0; attempts < kEdits; ++round) {
+    {
+      Transaction edit(mesh);
+      for (int i = 0; i < 5; ++i, ++attempts) {
+        made += any_edit(mesh, edit, random) == EditResult::made ? 1 : 0;
+        if (i == 2 && random() % 4 == 0) edit.undo();
+      }
+      // The mesh stays as small as it is: growth is undone.
+      if (mesh.tet_count() < 400 && random() % 2 == 0) edit.keep();
+    }
+    if (round % 20 == 19 && !mesh.check().empty()) FAIL("broken after attempt ", attempts);
+    if (round % 5000 == 4999) mesh.collect_garbage();
+  }
+  CHECK(made > kEdits / 20);
+  REQUIRE(mesh.check().empty());
+  std::size_t kept = 0;
+  for (const TetHandle t : mesh.tets()) {
+    // A tet that nothing has replaced has all that it had; one that was made has what its rules say.
+    CHECK((number[t] == -1) == (sum[t] > 0));
+    CHECK(name[t] == inherited);
+    kept += number[t] == -1 ? 0 : 1;
+  }
+  MESSAGE(made, " edits, ", kept, " tets of the start left of ", mesh.tet_count());
+}
+
+TEST_CASE("many threads may walk a mesh at the same time") {
+  const TetMesh mesh = ball(600);
+  const auto walk = [&mesh] {
+    std::size_t sum = 0;
+    for (const VertexHandle v : mesh.vertices()) {
+      sum += mesh.star(v).size() + mesh.link(v).size() + mesh.one_ring(v).size();
+      sum += mesh.is_boundary(v) || mesh.is_fixed(v) ? 1 : 0;
+    }
+    for (const TetEdge e : mesh.edges()) {
+      const Ring ring = mesh.ring(e);
+      sum += ring.tets.size() + ring.vertices.size();
+      sum += mesh.find_edge(ring.a, ring.b) ? 1 : 0;
+    }
+    for (const HalfFace f : mesh.faces()) {
+      const auto [a, b, c] = mesh.vertices(f);
+      sum += mesh.find_face(a, b, c) ? 1 : 0;
+    }
+    for (const TetHandle t : mesh.tets()) {
+      const TetVertices& v = mesh.vertices(t);
+      sum += mesh.find_tet(v[0], v[1], v[2], v[3]) ? mesh.neighbours(t).size() : 0;
+      sum += mesh.quality(t) > 0 ? 1 : 0;
+    }
+    return sum + mesh.one_rings().values.size() + mesh.stars().values.size() + mesh.check().size() +
+           mesh.to_mesh().tet_count();
+  };
+  const std::size_t expected = walk();
+  std::array<std::size_t, 4> sums{};
+  {
+    std::vector<std::thread> threads;
+    for (std::size_t& sum : sums) threads.emplace_back([&] { sum = walk(); });
+    for (std::thread& thread : threads) thread.join();
+  }
+  for (const std::size_t sum : sums) CHECK(sum == expected);
+}
+
+TEST_CASE(
+    "properties begin with the arrays of a mesh and come back as such, after all that happens") {
+  MeshArrays arrays = ball().to_mesh().arrays();
+  std::vector<double> age;
+  std::vector<std::int32_t> name;
+  std::vector<float> wind;
+  for (std::size_t t = 0; t < arrays.tets.size(); ++t) age.push_back(static_cast<double>(t) + 0.5);
+  for (std::size_t v = 0; v < arrays.points.size(); ++v) {
+    name.push_back(static_cast<std::int32_t>(7 * v));
+    wind.insert(wind.end(), {static_cast<float>(v), 2, 3});
+  }
+  arrays.tet_data = {{"age", 1, age}};
+  arrays.point_data = {{"name", 1, name}, {"wind", 3, wind}};
+  TetMesh mesh{Mesh(arrays)};
+  const auto ages = mesh.tet_data<double>("age", -1);
+  const auto names = mesh.point_data<std::int64_t>("name");
+  const auto winds = mesh.point_data<Point>("wind", Point(9, 9, 9));
+  const auto marks = mesh.tet_data<bool>("mark", true);
+  for (const TetHandle t : mesh.tets()) {
+    CHECK(ages[t] == t.index() + 0.5);
+    marks[t] = false;
+  }
+  for (const VertexHandle v : mesh.vertices()) {
+    CHECK(names[v] == 7 * v.index());
+    CHECK(winds[v] == Point(v.index(), 2, 3));
+  }
+  {
+    Transaction edit(mesh);
+    const TetEdge e = inner_edge(mesh);
+    const VertexHandle middle_vertex = edit.split(e, middle(mesh, e));
+    REQUIRE(middle_vertex.is_valid());
+    edit.keep();
+    names[middle_vertex] = -5;
+  }
+  mesh.sort_spatially();
+  const Mesh out = mesh.to_mesh();
+  const auto find = [](const auto& list, std::string_view wanted) {
+    const auto found = std::find_if(list.begin(), list.end(),
+                                    [&](const auto& each) { return each.name == wanted; });
+    REQUIRE(found != list.end());
+    return *found;
+  };
+  const auto out_ages = std::get<std::vector<double>>(find(out.arrays().tet_data, "age").values);
+  const auto out_marks =
+      std::get<std::vector<std::int32_t>>(find(out.arrays().tet_data, "mark").values);
+  REQUIRE(out_ages.size() == out.tet_count());
+  std::size_t made = 0;
+  for (std::size_t t = 0; t < out.tet_count(); ++t) {
+    CHECK((out_ages[t] == -1) == (out_marks[t] == 1));
+    made += out_ages[t] == -1 ? 1 : 0;
+    if (out_ages[t] == -1) continue;
+    // The same corners as the tet of that age had.
+    auto was = arrays.tets[static_cast<std::size_t>(out_ages[t])];
+    auto is = out.tets()[t];
+    std::sort(was.begin(), was.end());
+    std::sort(is.begin(), is.end());
+    CHECK(was == is);
+  }
+  CHECK(made > 5);
+  const auto out_names =
+      std::get<std::vector<std::int64_t>>(find(out.arrays().point_data, "name").values);
+  REQUIRE(out_names.size() == out.point_count());
+  CHECK(out_names.back() == -5);
+  CHECK(out_names[3] == 21);
+  CHECK(std::get<std::vector<double>>(find(out.arrays().point_data, "wind").values)[9] == 3);
+  CHECK(find(out.arrays().point_data, "wind").components == 3);
+}
+
+TEST_CASE("an array of a mesh that does not fit the type of a property is refused with its name") {
+  TetMesh mesh{Mesh(rich_arrays())};
+  CHECK(message_of([&] { mesh.tet_data<int>("age"); }) ==
+        "array 'age' has 2 numbers each, and the property 1");
+  MeshArrays arrays = rich_arrays();
+  arrays.point_data = {{"heat", 1, std::vector<double>{1, 2, 3.5, 4, 5}}};
+  TetMesh other{Mesh(arrays)};
+  CHECK(message_of([&] { other.point_data<int>("heat"); }).find("3.5 at 2 is no value") !=
+        std::string::npos);
+}
+
 TEST_CASE("new tets get the initial value, that of an old tet, or what a function says") {
   TetMesh mesh = ball();
   auto initial = mesh.tet_property<int>("initial", 5);
@@ -410,11 +564,13 @@ TEST_CASE("mistakes are refused with words") {
         "star: no vertex 100000: the mesh has slots 0 to " +
             std::to_string(mesh.vertex_slots() - 1));
   CHECK(message_of([&] { mesh.tet_property<int>("late"); }) ==
-        "a property is added while a transaction is open");
+        "a property is added while a transaction is open: it ends with its scope, kept or not");
   CHECK(message_of([&] { mesh.collect_garbage(); }) ==
-        "collect_garbage() while a transaction is open");
-  CHECK(message_of([&] { mesh.to_mesh(); }) == "to_mesh() while a transaction is open");
-  CHECK(message_of([&] { TetMesh copy(mesh); }) == "a copy is made while a transaction is open");
+        "collect_garbage() while a transaction is open: it ends with its scope, kept or not");
+  CHECK(message_of([&] { mesh.to_mesh(); }) ==
+        "to_mesh() while a transaction is open: it ends with its scope, kept or not");
+  CHECK(message_of([&] { TetMesh copy(mesh); }) ==
+        "a copy is made while a transaction is open: it ends with its scope, kept or not");
   CHECK(message_of([&] { edit.move(v, Point(std::nan(""), 0, 0)); }) ==
         "move: (nan, 0, 0) is not finite");
   {

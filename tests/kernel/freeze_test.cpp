@@ -108,7 +108,7 @@ TEST_CASE("a vertex of a frozen tet does not move") {
   for (const VertexHandle v : live_vertices(mesh)) {
     if (thawed.is_fixed(v) || !mesh.is_frozen(v)) continue;
     const Point tiny = mesh.point(v) + Point(1e-9, 0, 0);
-    CHECK(tx.move_vertex(v, tiny, link(mesh, v, workspace)) == EditResult::constrained);
+    CHECK(tx.move_vertex(v, tiny, link(mesh, v)) == EditResult::constrained);
     ++held;
   }
   CHECK(held > 10);

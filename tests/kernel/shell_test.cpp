@@ -95,7 +95,7 @@ TEST_CASE("find_shell tells closed from boundary on every edge of a mesh") {
   }
 }
 
-TEST_CASE("the range over a shell meets each tet once, from whichever tet it starts") {
+TEST_CASE("a ring meets each tet once, from whichever tet it starts") {
   for (const char* name : {"ball_60", "cube_2", "open_shell_7", "two_regions", "one_tet", "shell_3",
                            "shell_with_constrained_edge", "inverted_tet"}) {
     CAPTURE(name);
@@ -103,10 +103,11 @@ TEST_CASE("the range over a shell meets each tet once, from whichever tet it sta
     for (const auto& [edge, tets] : shells_of(mesh)) {
       for (const TetHandle start : tets) {
         std::vector<TetHandle> met;
-        for (const TetEdge e : shell(mesh, *edge_in(mesh, start, edge.first, edge.second))) {
-          const auto [a, b] = mesh.vertices(e);
-          REQUIRE(Edge(std::minmax(a, b)) == edge);
-          met.push_back(e.tet());
+        const Ring around = ring(mesh, *edge_in(mesh, start, edge.first, edge.second));
+        CHECK(Edge(std::minmax(around.a, around.b)) == edge);
+        for (const TetHandle t : around.tets) {
+          REQUIRE(edge_in(mesh, t, edge.first, edge.second));
+          met.push_back(t);
           REQUIRE(met.size() <= tets.size());
         }
         CHECK(std::set<TetHandle>(met.begin(), met.end()) == tets);

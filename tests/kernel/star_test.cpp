@@ -35,11 +35,11 @@ TEST_CASE("star, link and one-ring of every vertex are what a search of the whol
     Workspace workspace(mesh);
     for (const VertexHandle v : live_vertices(mesh)) {
       const std::set<TetHandle> expected = tets_with(mesh, v);
-      const auto tets = star(mesh, v, workspace);
+      const auto tets = star(mesh, v);
       CHECK(tets.size() == expected.size());
       CHECK(std::set<TetHandle>(tets.begin(), tets.end()) == expected);
 
-      const auto faces = link(mesh, v, workspace);
+      const auto faces = link(mesh, v);
       REQUIRE(faces.size() == expected.size());
       for (const HalfFace f : faces) CHECK(mesh.vertices(f.tet())[f.face()] == v);
 
@@ -49,7 +49,7 @@ TEST_CASE("star, link and one-ring of every vertex are what a search of the whol
           if (w != v) others.insert(w);
         }
       }
-      const auto ring = one_ring(mesh, v, workspace);
+      const auto ring = one_ring(mesh, v);
       CHECK(ring.size() == others.size());
       CHECK(std::set<VertexHandle>(ring.begin(), ring.end()) == others);
     }
@@ -63,14 +63,14 @@ TEST_CASE("a ring lists its vertices as the faces of the link bring them") {
     Workspace workspace(mesh);
     for (const VertexHandle v : live_vertices(mesh)) {
       std::vector<VertexHandle> expected;
-      for (const HalfFace f : link(mesh, v, workspace)) {
+      for (const HalfFace f : link(mesh, v)) {
         for (const VertexHandle w : mesh.vertices(f)) {
           if (std::find(expected.begin(), expected.end(), w) == expected.end()) {
             expected.push_back(w);
           }
         }
       }
-      const auto ring = one_ring(mesh, v, workspace);
+      const auto ring = one_ring(mesh, v);
       CHECK(std::vector<VertexHandle>(ring.begin(), ring.end()) == expected);
     }
   }
@@ -81,8 +81,8 @@ TEST_CASE("a vertex of no tet has an empty star") {
   data.points.push_back({5, 5, 5});
   const TetMesh mesh = make_mesh(data);
   Workspace workspace(mesh);
-  CHECK(star(mesh, VertexHandle(4), workspace).empty());
-  CHECK(one_ring(mesh, VertexHandle(4), workspace).empty());
+  CHECK(star(mesh, VertexHandle(4)).empty());
+  CHECK(one_ring(mesh, VertexHandle(4)).empty());
   CHECK_FALSE(find_in_star(mesh, VertexHandle(4), VertexHandle(0), workspace));
 }
 
@@ -92,7 +92,7 @@ TEST_CASE("where two balls touch, the star is the fan of the stored tet") {
   std::size_t pinched = 0;
   for (const VertexHandle v : live_vertices(mesh)) {
     const std::size_t all = tets_with(mesh, v).size();
-    const std::size_t fan = star(mesh, v, workspace).size();
+    const std::size_t fan = star(mesh, v).size();
     if (fan != all) ++pinched;
     CHECK((fan == all || 2 * fan == all));
   }
@@ -126,7 +126,7 @@ TEST_CASE("a star is found whole up to a size, and given up there") {
     const StarKind kind = find_star(mesh, VertexHandle(0), workspace, found);
     CHECK(kind == (2 * n <= kMaxStar ? StarKind::whole : StarKind::too_large));
     CHECK(found.size() == std::min<std::size_t>(2 * n, kMaxStar));
-    CHECK(link(mesh, VertexHandle(0), workspace).size() == 2 * n);
+    CHECK(link(mesh, VertexHandle(0)).size() == 2 * n);
   }
 }
 

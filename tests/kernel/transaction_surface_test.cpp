@@ -87,9 +87,9 @@ Cavity split(const TetMesh& mesh, const SurfaceShell& shell, VertexHandle m) {
   return cavity;
 }
 
-Cavity contraction(const TetMesh& mesh, VertexHandle v, VertexHandle w, Workspace& workspace) {
+Cavity contraction(const TetMesh& mesh, VertexHandle v, VertexHandle w) {
   Cavity cavity;
-  for (const HalfFace f : link(mesh, v, workspace)) {
+  for (const HalfFace f : link(mesh, v)) {
     cavity.old.push_back(f.tet());
     const auto [a, b, c] = mesh.vertices(f);
     if (a == w || b == w || c == w) continue;
@@ -222,7 +222,7 @@ TEST_CASE("new vertices of the surface are fixed for other operators, and can va
   check_sound(mesh);
   const TetMesh split_mesh = mesh;
   Transaction transaction(mesh, workspace);
-  const Cavity cavity = contraction(mesh, m, shell->a, workspace);
+  const Cavity cavity = contraction(mesh, m, shell->a);
   CHECK(transaction.replace_cavity(cavity.old, cavity.created) == EditResult::constrained);
   CHECK(mesh == split_mesh);
   REQUIRE(cavity.make(transaction) == EditResult::made);
@@ -271,7 +271,7 @@ TEST_CASE("labels of triangles and named edges follow the surface") {
   const VertexHandle end = vertex_at(mesh, {1, 0, 0});
   {
     Transaction transaction(mesh, workspace);
-    REQUIRE(contraction(mesh, middle, end, workspace).make(transaction) == EditResult::made);
+    REQUIRE(contraction(mesh, middle, end).make(transaction) == EditResult::made);
     transaction.keep();
   }
   check_sound(mesh);

@@ -56,10 +56,11 @@ Cavity flip_32(const Shell& shell) {
 /// Each tet of a shell becomes two, m in the place of a and of b.
 Cavity split_edge(const TetMesh& mesh, TetEdge edge, VertexHandle m) {
   Cavity cavity;
-  for (const TetEdge e : shell(mesh, edge)) {
-    cavity.old.push_back(e.tet());
-    for (const unsigned i : kEdgeVertices[e.edge()]) {
-      cavity.created.push_back(with(mesh.vertices(e.tet()), i, m));
+  const auto [a, b] = mesh.vertices(edge);
+  for (const TetHandle t : ring(mesh, edge).tets) {
+    cavity.old.push_back(t);
+    for (const unsigned i : kEdgeVertices[edge_in(mesh, t, a, b)->edge()]) {
+      cavity.created.push_back(with(mesh.vertices(t), i, m));
     }
   }
   return cavity;
@@ -72,12 +73,12 @@ Cavity split_tet(const TetMesh& mesh, TetHandle t, VertexHandle m) {
 }
 
 /// Four tets around a vertex become one.
-std::optional<Cavity> remove_vertex(const TetMesh& mesh, VertexHandle v, Workspace& workspace) {
-  const auto faces = link(mesh, v, workspace);
+std::optional<Cavity> remove_vertex(const TetMesh& mesh, VertexHandle v) {
+  const auto faces = link(mesh, v);
   if (faces.size() != 4) return std::nullopt;
   Cavity cavity;
   for (const HalfFace f : faces) cavity.old.push_back(f.tet());
-  const auto ring = one_ring(mesh, v, workspace);
+  const auto ring = one_ring(mesh, v);
   if (ring.size() != 4) return std::nullopt;
   const HalfFace base = HalfFace(cavity.old[0], mesh.local_index(cavity.old[0], v));
   for (const VertexHandle w : ring) {
@@ -228,12 +229,12 @@ class RandomEditor {
       case 3: {
         const auto vertices = live_vertices(mesh_);
         const VertexHandle v = vertices[random_.index(vertices.size())];
-        const auto faces = link(mesh_, v, workspace_);
+        const auto faces = link(mesh_, v);
         return tx.move_vertex(v, mesh_.point(v) + random_.in_ball(0.1), faces);
       }
       case 4: {
         for (const VertexHandle v : free_vertices(mesh_)) {
-          if (const auto cavity = remove_vertex(mesh_, v, workspace_)) return logged(tx, *cavity);
+          if (const auto cavity = remove_vertex(mesh_, v)) return logged(tx, *cavity);
         }
         return EditResult::not_closed;
       }
@@ -445,6 +446,61 @@ TEST_CASE("refused edits say why and change nothing") {
   CHECK(tx.created().empty());
 }
 
+TEST_CASE(
+    "workspaces that take turns, and one older than a garbage collection, leave a sound mesh") {
+  TetMesh mesh = make_mesh(zoo_data("cube_3"));
+  Workspace first(mesh), second(mesh);
+  const auto split = [&](Workspace& workspace, TetHandle t) {
+    Transaction tx(mesh, workspace);
+    const TetVertices v = mesh.vertices(t);
+    Point middle = Point::Zero();
+    for (const VertexHandle w : v) middle += 0.25 * mesh.point(w);
+    const Cavity cavity = split_tet(mesh, t, tx.add_vertex(middle));
+    REQUIRE(tx.replace_cavity(cavity.old, cavity.created) == EditResult::made);
+    tx.keep();
+    const VertexHandle m = mesh.vertices(t)[0] == v[0] ? mesh.vertices(t)[3] : mesh.vertices(t)[0];
+    return m;
+  };
+  const auto take_out = [&](Workspace& workspace, VertexHandle m) {
+    Transaction tx(mesh, workspace);
+    const auto cavity = remove_vertex(mesh, m);
+    REQUIRE(cavity);
+    if (tx.replace_cavity(cavity->old, cavity->created) == EditResult::made) tx.keep();
+  };
+  const std::size_t tets = mesh.tet_count();
+  // Both workspaces list the slots that the first one made free and the second one filled.
+  std::vector<VertexHandle> middles;
+  for (std::uint32_t i = 0; i < 8; ++i) {
+    middles.push_back(split(first, TetHandle(i)));
+  }
+  for (const VertexHandle m : middles) take_out(first, m);
+  Workspace third(mesh);
+  for (std::uint32_t i = 0; i < 24; ++i) {
+    split(i % 3 == 0 ? first : i % 3 == 1 ? second : third, live_tets(mesh)[i]);
+    REQUIRE(check_integrity(mesh).empty());
+  }
+  CHECK(mesh.tet_count() == tets + 3 * 24);
+  CHECK(live_tets(mesh).size() == mesh.tet_count());
+  mesh.collect_garbage();
+  for (std::uint32_t i = 0; i < 6; ++i) split(first, live_tets(mesh)[5 * i]);
+  CHECK(check_integrity(mesh).empty());
+  CHECK(live_tets(mesh).size() == mesh.tet_count());
+}
+
+TEST_CASE("a move without a link is refused, and the kernel finds the link itself") {
+  TetMesh mesh = make_mesh(zoo_data("ball_60"));
+  Workspace workspace(mesh);
+  for (const VertexHandle v : live_vertices(mesh)) {
+    if (mesh.is_fixed(v)) continue;
+    Transaction tx(mesh, workspace);
+    CHECK(tx.move_vertex(v, {50, 0, 0}, {}) == EditResult::not_closed);
+    CHECK(tx.move_vertex(v, {50, 0, 0}) == EditResult::inverted);
+    CHECK(tx.move_vertex(v, mesh.point(v) + Point(1e-9, 0, 0)) == EditResult::made);
+  }
+  Transaction tx(mesh, workspace);
+  CHECK(tx.move_vertex(VertexHandle(), {0, 0, 0}) == EditResult::not_closed);
+}
+
 TEST_CASE("a new vertex that has tets elsewhere is refused") {
   TetMesh mesh(zoo_data("ball_60"));
   const TetMesh before = mesh;
@@ -535,8 +591,8 @@ TEST_CASE("a required vertex neither vanishes nor moves") {
     Transaction tx(mesh, workspace);
     const VertexHandle v(4);
     const EditResult expected = required ? EditResult::constrained : EditResult::made;
-    CHECK(tx.move_vertex(v, {0, 0, 0.1}, link(mesh, v, workspace)) == expected);
-    const auto cavity = remove_vertex(mesh, v, workspace);
+    CHECK(tx.move_vertex(v, {0, 0, 0.1}, link(mesh, v)) == expected);
+    const auto cavity = remove_vertex(mesh, v);
     REQUIRE(cavity);
     CHECK(replace(tx, *cavity) == expected);
     CHECK(mesh.is_deleted(v) == !required);
@@ -553,7 +609,7 @@ TEST_CASE("vertices of the boundary and of constrained edges do not move") {
   std::size_t moved = 0;
   for (const VertexHandle v : live_vertices(mesh)) {
     const Point tiny = mesh.point(v) + Point(1e-9, 0, 0);
-    const EditResult result = tx.move_vertex(v, tiny, link(mesh, v, workspace));
+    const EditResult result = tx.move_vertex(v, tiny, link(mesh, v));
     CHECK((result == EditResult::constrained) == mesh.is_fixed(v));
     if (mesh.is_boundary(v)) CHECK(mesh.is_fixed(v));
     moved += result == EditResult::made;
@@ -569,9 +625,9 @@ TEST_CASE("a move that turns a tet over is refused, one that untangles is not") 
   const VertexHandle v = free_vertices(mesh).at(0);
   const TetMesh before = mesh;
   Transaction tx(mesh, workspace);
-  CHECK(tx.move_vertex(v, {1.2, 0.5, 0.5}, link(mesh, v, workspace)) == EditResult::inverted);
+  CHECK(tx.move_vertex(v, {1.2, 0.5, 0.5}, link(mesh, v)) == EditResult::inverted);
   CHECK(mesh == before);
-  CHECK(tx.move_vertex(v, {0.5, 0.5, 0.5}, link(mesh, v, workspace)) == EditResult::made);
+  CHECK(tx.move_vertex(v, {0.5, 0.5, 0.5}, link(mesh, v)) == EditResult::made);
   CHECK(mesh.point(v) == Point(0.5, 0.5, 0.5));
   CHECK(to_string(check_integrity(mesh)) == "");
 
@@ -581,7 +637,7 @@ TEST_CASE("a move that turns a tet over is refused, one that untangles is not") 
   REQUIRE(count_not_positive(tangled) > 0);
   Workspace other(tangled);
   Transaction untangle(tangled, other);
-  CHECK(untangle.move_vertex(v, {0.5, 0.5, 0.5}, link(tangled, v, other)) == EditResult::made);
+  CHECK(untangle.move_vertex(v, {0.5, 0.5, 0.5}, link(tangled, v)) == EditResult::made);
   CHECK(count_not_positive(tangled) == 0);
 }
 
@@ -598,9 +654,9 @@ TEST_CASE("vertices that move together need not be in one another's way") {
     const VertexHandle w = free[random.index(free.size())];
     if (v == w) continue;
     const Point way = random.in_ball(0.3);
-    const auto faces = link(mesh, v, workspace);
+    const auto faces = link(mesh, v);
     const std::vector<HalfFace> of_v(faces.begin(), faces.end());
-    const auto of_w = link(mesh, w, workspace);
+    const auto of_w = link(mesh, w);
     const std::array<VertexMove, 2> moves = {VertexMove{v, mesh.point(v) + way, of_v},
                                              VertexMove{w, mesh.point(w) + way, of_w}};
     Transaction tx(mesh, workspace);
@@ -639,7 +695,7 @@ TEST_CASE("of vertices that move together none moves when one may not") {
   for (const VertexHandle w : live_vertices(mesh)) {
     if (mesh.is_fixed(w)) fixed = w;
   }
-  const auto faces = link(mesh, v, workspace);
+  const auto faces = link(mesh, v);
   const Point near = mesh.point(v) + Point(1e-9, 0, 0);
   const std::array<VertexMove, 2> moves = {VertexMove{v, near, faces},
                                            VertexMove{fixed, mesh.point(fixed), {}}};
@@ -660,7 +716,7 @@ TEST_CASE("vertices are rearranged if fewer tets are inverted then, even if othe
   std::vector<std::vector<HalfFace>> links;
   std::vector<VertexMove> moves;
   for (const VertexHandle v : free) {
-    const auto faces = link(mesh, v, workspace);
+    const auto faces = link(mesh, v);
     links.emplace_back(faces.begin(), faces.end());
     moves.push_back({v, good.points[v.index()], {}});
   }
@@ -698,7 +754,7 @@ TEST_CASE("vertices of which one is fixed are not rearranged") {
   const TetMesh before = mesh;
   Workspace workspace(mesh);
   const VertexHandle v = free_vertices(mesh).at(0);
-  const auto faces = link(mesh, v, workspace);
+  const auto faces = link(mesh, v);
   const std::array<VertexMove, 2> moves = {VertexMove{v, Point(0.5, 0.5, 0.5), faces},
                                            VertexMove{VertexHandle(0), mesh.point(v), {}}};
   REQUIRE(mesh.is_fixed(VertexHandle(0)));
@@ -756,17 +812,17 @@ TEST_CASE("compare counts a moved and then replaced tet once, with its first qua
   Workspace workspace(mesh);
   const VertexHandle v = free_vertices(mesh).at(0);
   std::vector<Quality> expected;
-  for (const TetHandle t : star(mesh, v, workspace)) expected.push_back(mesh.quality(t));
+  for (const TetHandle t : star(mesh, v)) expected.push_back(mesh.quality(t));
   std::sort(expected.begin(), expected.end());
   Transaction tx(mesh, workspace);
   std::vector<Quality> before, now;
   for (const double x : {0.45, 0.5, 0.52}) {
-    REQUIRE(tx.move_vertex(v, {x, 0.5, 0.5}, link(mesh, v, workspace)) == EditResult::made);
+    REQUIRE(tx.move_vertex(v, {x, 0.5, 0.5}, link(mesh, v)) == EditResult::made);
     tx.compare(before, now);
     CHECK(before == expected);
     CHECK(now.size() == expected.size());
   }
-  const TetHandle t = star(mesh, v, workspace)[0];
+  const TetHandle t = star(mesh, v)[0];
   const VertexHandle m = tx.add_vertex(middle(mesh, mesh.vertices(t)));
   REQUIRE(replace(tx, split_tet(mesh, t, m)) == EditResult::made);
   tx.compare(before, now);
@@ -783,13 +839,13 @@ TEST_CASE("the tets that a transaction made or changed are listed once, those th
   tx.list_changed(changed);
   CHECK(changed.empty());
   for (const double x : {0.5, 0.52}) {
-    REQUIRE(tx.move_vertex(v, {x, 0.5, 0.5}, link(mesh, v, workspace)) == EditResult::made);
+    REQUIRE(tx.move_vertex(v, {x, 0.5, 0.5}, link(mesh, v)) == EditResult::made);
   }
   const VertexHandle m = tx.add_vertex(middle(mesh, mesh.vertices(mesh.tet_of(v))));
   REQUIRE(replace(tx, split_tet(mesh, mesh.tet_of(v), m)) == EditResult::made);
   std::set<TetHandle> expected;
   for (const VertexHandle w : {v, m}) {
-    for (const TetHandle t : star(mesh, w, workspace)) expected.insert(t);
+    for (const TetHandle t : star(mesh, w)) expected.insert(t);
   }
   tx.list_changed(changed);
   CHECK(changed.size() == expected.size());
@@ -854,12 +910,12 @@ TEST_CASE("a move dates the vertices around, not the vertex itself") {
   const VertexHandle v = free_vertices(mesh).at(0);
   {
     Transaction tx(mesh, workspace);
-    REQUIRE(tx.move_vertex(v, {0.5, 0.5, 0.5}, link(mesh, v, workspace)) == EditResult::made);
+    REQUIRE(tx.move_vertex(v, {0.5, 0.5, 0.5}, link(mesh, v)) == EditResult::made);
     tx.keep();
   }
   CHECK(mesh.changed(v) == 0);
-  for (const VertexHandle w : one_ring(mesh, v, workspace)) CHECK(mesh.changed(w) == 9);
-  for (const TetHandle t : star(mesh, v, workspace)) {
+  for (const VertexHandle w : one_ring(mesh, v)) CHECK(mesh.changed(w) == 9);
+  for (const TetHandle t : star(mesh, v)) {
     CHECK(mesh.is_touched(t));
     CHECK_FALSE(mesh.is_created(t));
   }
@@ -873,7 +929,7 @@ TEST_CASE("dates and marks of edits that are not kept are not written") {
     Transaction tx(mesh, workspace);
     {
       Transaction child(mesh, workspace);
-      REQUIRE(child.move_vertex(v, {0.5, 0.5, 0.5}, link(mesh, v, workspace)) == EditResult::made);
+      REQUIRE(child.move_vertex(v, {0.5, 0.5, 0.5}, link(mesh, v)) == EditResult::made);
       child.keep();
     }
     tx.undo();

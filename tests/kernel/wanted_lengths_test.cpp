@@ -82,7 +82,7 @@ TEST_CASE("a transaction lists the edges that it took away, made and moved, each
     const auto found = tetmend::link(mesh, middle, workspace);
     return std::vector<HalfFace>(found.begin(), found.end());
   }();
-  const std::size_t degree = one_ring(mesh, middle, workspace).size();
+  const std::size_t degree = one_ring(mesh, middle).size();
   const Point from = mesh.point(middle);
   Transaction transaction(mesh, workspace);
   const VertexMove move{middle, from + Point(0.01, 0.02, 0.03), link};

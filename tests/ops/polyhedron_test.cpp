@@ -98,7 +98,7 @@ TEST_CASE("the surface is what has no twin, and vertices off it are inside") {
     }
     REQUIRE(corners == indices(polyhedron.vertices()));
     for (std::size_t n = 0; n < polyhedron.vertices().size(); ++n) {
-      const auto ball = star(worker.mesh, polyhedron.vertices()[n], worker.workspace);
+      const auto ball = star(worker.mesh, polyhedron.vertices()[n]);
       const bool whole = std::all_of(ball.begin(), ball.end(), [&](TetHandle member) {
         const auto tets = polyhedron.tets();
         return std::find(tets.begin(), tets.end(), member) != tets.end();
@@ -157,7 +157,7 @@ TEST_CASE("the ball of a vertex is a polyhedron without that vertex, unless it i
   std::size_t balls = 0;
   for (const VertexHandle v : live_vertices(worker.mesh)) {
     if (worker.mesh.is_boundary(v)) continue;
-    const auto around = link(worker.mesh, v, worker.workspace);
+    const auto around = link(worker.mesh, v);
     Polyhedron polyhedron;
     REQUIRE(polyhedron.start_at_ball(worker.mesh, around));
     CHECK(polyhedron.tets().size() == around.size());
@@ -183,8 +183,7 @@ TEST_CASE("the ball of a vertex is a polyhedron without that vertex, unless it i
   }
   LoneWorker crowded(large);
   Polyhedron polyhedron;
-  CHECK_FALSE(polyhedron.start_at_ball(
-      crowded.mesh, link(crowded.mesh, VertexHandle(middle), crowded.workspace)));
+  CHECK_FALSE(polyhedron.start_at_ball(crowded.mesh, link(crowded.mesh, VertexHandle(middle))));
 }
 
 TEST_CASE("tets that overlap in a folded mesh are not embedded") {

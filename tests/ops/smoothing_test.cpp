@@ -129,7 +129,7 @@ TEST_CASE("smoothing moves one vertex and changes nothing else") {
 TEST_CASE("the ball of a vertex is loaded triangle by triangle, positive from inside") {
   Worker worker(octahedron({0.1, 0.1, 0.1}));
   BallOptimiser ball;
-  const auto faces = link(worker.mesh, VertexHandle(0), worker.workspace);
+  const auto faces = link(worker.mesh, VertexHandle(0));
   load_ball(worker.mesh, faces, ball);
   REQUIRE(ball.size() == 8);
   CHECK(ball.worst(worker.centre()) == doctest::Approx(worker.worst()).epsilon(1e-6));

@@ -30,7 +30,7 @@ def is_on(option: str) -> bool:
     return re.search(rf"^{option}:BOOL=ON$", (BUILD / "CMakeCache.txt").read_text(), re.M) is not None
 
 
-EXPECTED = {"tetmend", "libtetmend0", "libtetmend-dev"}
+EXPECTED = {"tetmend", "libtetmend0.1", "libtetmend-dev"}
 EXPECTED |= {"tetmend-viewer"} if is_on("TETMEND_BUILD_VIEWER") else set()
 EXPECTED |= {"python3-tetmend"} if is_on("TETMEND_BUILD_PYTHON") else set()
 EXPECTED |= {"tetmend-mpi"} if (BUILD / "bin/tetmend-mpi").exists() else set()
@@ -79,7 +79,7 @@ class Packages(unittest.TestCase):
                                "/usr/share/applications/tetmend-view.desktop", "/usr/share/mime/packages/tetmend.xml",
                                "/usr/share/icons/hicolor/scalable/apps/tetmend-view.svg"],
             "tetmend-mpi": ["/usr/bin/tetmend-mpi", "/usr/share/man/man1/tetmend-mpi.1.gz"],
-            "libtetmend0": ["/libtetmend.so.0", "/libtetmend.so.0.1.0"],
+            "libtetmend0.1": ["/libtetmend.so.0.1", "/libtetmend.so.0.1.0"],
             "libtetmend-dev": ["/libtetmend.so", "/usr/include/tetmend/improve.h", "/usr/include/tetmend/plugin.h",
                                "/cmake/tetmend/tetmendConfig.cmake", "/pkgconfig/tetmend.pc"],
             "python3-tetmend": ["/usr/lib/python3/dist-packages/tetmend/__init__.py"],
@@ -94,12 +94,12 @@ class Packages(unittest.TestCase):
                     self.assertEqual(mode, "drwxr-xr-x root/root", name)
 
     def test_the_library_has_no_links_for_the_linker(self) -> None:
-        self.assertFalse([name for name in self.content("libtetmend0") if name.endswith((".so", ".h", ".pc"))])
+        self.assertFalse([name for name in self.content("libtetmend0.1") if name.endswith((".so", ".h", ".pc"))])
 
     def test_each_depends_on_what_it_is_linked_with(self) -> None:
         for package in EXPECTED - {"libtetmend-dev", "python3-tetmend"}:
             self.assertLessEqual({"libc6", "libtbb12", "libfmt9", "libzstd1", "liblua5.4-0"}, self.depends(package), package)
-        itself = f"libtetmend0 (= {self.field('libtetmend0', 'Version')})"
+        itself = f"libtetmend0.1 (= {self.field('libtetmend0.1', 'Version')})"
         for package in EXPECTED & {"libtetmend-dev", "python3-tetmend"}:
             self.assertIn(itself, self.field(package, "Depends"))
 

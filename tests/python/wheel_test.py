@@ -63,7 +63,7 @@ def test_the_wheel_is_tagged_and_lists_its_files(tmp_path):
         assert f"\n{line}" in metadata
     assert "[pyvista.accessors]\ntetmend = tetmend.pyvista\n" in points
     modules = {f"tetmend/{path.name}" for path in (SOURCE / "bindings/python/tetmend").iterdir() if path.is_file()}
-    assert modules <= names and "tetmend/libtetmend.so.0" in names
+    assert modules <= names and "tetmend/libtetmend.so.0.1" in names
     assert any(each.endswith("licenses/LICENSE") for each in names) and any(each.endswith("THIRD-PARTY.md") for each in names)
 
 
@@ -76,10 +76,10 @@ def test_each_bundled_library_has_a_name_of_its_own_and_its_licence(tmp_path):
     with zipfile.ZipFile(tmp_path / name) as archive:
         archive.extractall(tmp_path / "wheel")
     package = tmp_path / "wheel/tetmend"
-    bundled = {file.name for file in package.glob("*.so*")} - {"libtetmend.so.0"} - {file.name for file in package.glob("_core*")}
+    bundled = {file.name for file in package.glob("*.so*")} - {"libtetmend.so.0.1"} - {file.name for file in package.glob("_core*")}
     assert len(bundled) >= 4 and all(re.fullmatch(r"lib[\w+.-]+-[0-9a-f]{8}\.so[.\d]*", each) for each in bundled), bundled
     needed = {each for file in package.glob("*.so*") for each in re.findall(r"NEEDED.*\[(.*)\]", run("readelf", "-d", file))}
-    assert {each for each in needed if not tetmend_build.OF_THE_SYSTEM.match(each)} == bundled | {"libtetmend.so.0"}
+    assert {each for each in needed if not tetmend_build.OF_THE_SYSTEM.match(each)} == bundled | {"libtetmend.so.0.1"}
     licences = {file.name for file in (tmp_path / "wheel").glob("*.dist-info/licenses/*.so*.txt")}
     assert licences == {f"{each}.txt" for each in bundled}
 

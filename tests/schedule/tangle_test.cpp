@@ -35,8 +35,7 @@ MeshData two_knots() {
 }
 
 std::vector<Tangle> find(const TetMesh& mesh, const TangleLimits& limits) {
-  Workspace workspace(mesh);
-  return find_tangles(mesh, workspace, limits, kGoOn);
+  return find_tangles(mesh, limits, kGoOn);
 }
 
 }  // namespace
@@ -117,6 +116,5 @@ TEST_CASE("frozen tets make no tangle, and their vertices do not move") {
 
 TEST_CASE("a search that is stopped finds nothing") {
   const TetMesh mesh(kuhn_cube(8, 1.5, 1));
-  Workspace workspace(mesh);
-  CHECK(find_tangles(mesh, workspace, {}, [] { return false; }).empty());
+  CHECK(find_tangles(mesh, {}, [] { return false; }).empty());
 }

@@ -111,7 +111,7 @@ TEST_CASE("no tet is in two neighbourhoods, and their border has no vertex that 
     for (const TetHandle t : found.tets) CHECK(seen.insert(t.index()).second);
     for (std::size_t i = 0; i < found.vertices.size(); ++i) {
       if (found.stays[i]) continue;
-      for (const TetHandle t : star(mesh, found.vertices[i], workspace)) {
+      for (const TetHandle t : star(mesh, found.vertices[i])) {
         CHECK(marks[t.index()] == number);
       }
     }

@@ -12,7 +12,7 @@ import tempfile
 from pathlib import Path
 
 SOURCE = Path(sys.argv[1]).resolve()
-NAMES = ["tetmend", "tetmend-viewer", "libtetmend0", "libtetmend-dev", "python3-tetmend"]
+NAMES = ["tetmend", "tetmend-viewer", "libtetmend0.1", "libtetmend-dev", "python3-tetmend"]
 failures = []
 
 

@@ -6,7 +6,6 @@
 
 #include "kernel/shell.h"
 #include "kernel/star.h"
-#include "kernel/workspace.h"
 #include "viewer/mesh/visibility.h"
 
 namespace tetmend::viewer {
@@ -51,8 +50,8 @@ Highlight highlight_caller(const TetMesh& mesh, TetEdge edge, const glm::dvec3& 
   Highlight highlight;
   Colour fill = kGhostColour;
   fill.alpha = kFaint;
-  for (const TetEdge e : shell(mesh, edge)) {
-    const auto c = corners(mesh, e.tet());
+  for (const TetHandle t : ring(mesh, edge).tets) {
+    const auto c = corners(mesh, t);
     for (const auto& f : kFaceVertices) {
       add_triangle(highlight.faces, {c[f[0]], c[f[1]], c[f[2]]}, fill, origin);
     }
@@ -88,14 +87,13 @@ std::vector<TetHandle> tets_of(const TetMesh& mesh, const Selection& selection) 
   if (const auto* t = std::get_if<TetHandle>(&selection)) {
     found.push_back(*t);
   } else if (const auto* e = std::get_if<TetEdge>(&selection)) {
-    for (const TetEdge other : shell(mesh, *e)) found.push_back(other.tet());
+    for (const TetHandle around : ring(mesh, *e).tets) found.push_back(around);
   } else if (const auto* f = std::get_if<HalfFace>(&selection)) {
     found.push_back(f->tet());
     if (!mesh.twin(*f).is_outside()) found.push_back(mesh.twin(*f).tet());
   } else if (const auto* v = std::get_if<VertexHandle>(&selection)) {
     if (!mesh.tet_of(*v).is_valid()) return found;
-    Workspace workspace(mesh);
-    for (const TetHandle around : star(mesh, *v, workspace)) found.push_back(around);
+    for (const TetHandle around : star(mesh, *v)) found.push_back(around);
   }
   std::sort(found.begin(), found.end());
   return found;

@@ -138,7 +138,7 @@ Options LiveRun::options_for(const Schedule& schedule, const Standard& standard)
   options.set = settings_;
   options.plugin = plugins_;
   options.goal = standard.goal();
-  options.measure = to_string(standard.terms());
+  options.measure = standard.measure_name();
   options.threads = static_cast<int>(std::clamp(std::thread::hardware_concurrency(), 1U, 1024U));
   return options;
 }

@@ -112,8 +112,9 @@ class Painter {
   }
   void paint(TetEdge edge) {
     const auto ends = mesh_.vertices(edge);
-    for (const TetEdge e : shell(mesh_, edge)) {
-      const TetVertices& v = mesh_.vertices(e.tet());
+    for (const TetHandle t : ring(mesh_, edge).tets) {
+      const TetEdge e = *edge_in(mesh_, t, ends[0], ends[1]);
+      const TetVertices& v = mesh_.vertices(t);
       const auto& across = kEdgeVertices[5 - e.edge()];
       const VertexHandle p = v[across[0]];
       const VertexHandle q = v[across[1]];
@@ -237,9 +238,9 @@ class Teller {
     row("shell", name_of_shell(kind));
     Quality worst = std::numeric_limits<Quality>::infinity();
     std::vector<TetHandle> tets;
-    for (const TetEdge e : shell(mesh_, edge)) {
-      worst = std::min(worst, mesh_.quality(e.tet()));
-      tets.push_back(e.tet());
+    for (const TetHandle t : ring(mesh_, edge).tets) {
+      worst = std::min(worst, mesh_.quality(t));
+      tets.push_back(t);
     }
     row("degree (tets)", fmt::format("{}", tets.size()));
     row("worst quality", fmt::format("{:.4f}", worst));
@@ -372,8 +373,8 @@ Ball ball_around(const TetMesh& mesh, const Selection& selection) {
   if (const auto* t = std::get_if<TetHandle>(&selection)) {
     for (const glm::dvec3& p : corners(mesh, *t)) points.push_back(p);
   } else if (const auto* e = std::get_if<TetEdge>(&selection)) {
-    for (const TetEdge other : shell(mesh, *e)) {
-      for (const glm::dvec3& p : corners(mesh, other.tet())) points.push_back(p);
+    for (const TetHandle around : ring(mesh, *e).tets) {
+      for (const glm::dvec3& p : corners(mesh, around)) points.push_back(p);
     }
   } else if (const auto* f = std::get_if<HalfFace>(&selection)) {
     for (const glm::dvec3& p : corners(mesh, *f)) points.push_back(p);
@@ -427,8 +428,8 @@ std::vector<NamedVertex> names_of(const TetMesh& mesh, const Selection& selectio
       }
       return names;
     }
-    for (const TetEdge other : shell(mesh, *e)) {
-      for (const VertexHandle v : mesh.vertices(other.tet())) {
+    for (const TetHandle around : ring(mesh, *e).tets) {
+      for (const VertexHandle v : mesh.vertices(around)) {
         const auto same = [&](const NamedVertex& name) { return name.vertex == v; };
         if (std::none_of(names.begin(), names.end(), same)) names.push_back({v, {}});
       }
@@ -438,8 +439,7 @@ std::vector<NamedVertex> names_of(const TetMesh& mesh, const Selection& selectio
   } else if (const auto* v = std::get_if<VertexHandle>(&selection)) {
     names.push_back({*v, "v"});
     if (!mesh.tet_of(*v).is_valid()) return names;
-    Workspace workspace(mesh);
-    for (const VertexHandle w : one_ring(mesh, *v, workspace)) names.push_back({w, {}});
+    for (const VertexHandle w : one_ring(mesh, *v)) names.push_back({w, {}});
   }
   return names;
 }

@@ -92,7 +92,7 @@ def _bundle_libraries(package: Path) -> dict[str, Path]:
     Another package may bring the same library of another version, and a process keeps the first of a name: with patchelf each gets a
     name of its own.
     """
-    listed = subprocess.run(["ldd", package / "libtetmend.so.0"], check=True, capture_output=True, text=True).stdout
+    listed = subprocess.run(["ldd", package / "libtetmend.so.0.1"], check=True, capture_output=True, text=True).stdout
     needed = {name: Path(file) for name, file in re.findall(r"^\s*(\S+) => (/\S+)", listed, re.M) if not OF_THE_SYSTEM.match(name)}
     patchelf = shutil.which("patchelf")
     new_names = {}

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include <tetmend/improve.h>
 #include <tetmend/kernel.h>
 #include <tetmend/measure.h>
 #include <tetmend/operators.h>
@@ -40,6 +41,25 @@ void look_around(const TetMesh& mesh, TetEdge e) {
   std::printf("%td faces, %td of them on the boundary\n",
               std::distance(mesh.faces().begin(), mesh.faces().end()),
               std::distance(boundary.begin(), boundary.end()));
+}
+
+std::size_t count_sharp_edges(TetMesh& mesh) {
+  auto sharp = mesh.vertex_property<int>("sharp");
+  const auto normal = [&](VertexHandle a, VertexHandle b, VertexHandle c) -> Point {
+    return (mesh.point(b) - mesh.point(a)).cross(mesh.point(c) - mesh.point(a)).normalized();
+  };
+  std::size_t count = 0;
+  for (TetEdge e : mesh.edges()) {
+    const Ring ring = mesh.ring(e);
+    if (ring.closed) continue;  // inside the mesh
+    const auto [a, b] = mesh.vertices(e);
+    const Point first = normal(b, a, ring.vertices.front());
+    if (first.dot(normal(a, b, ring.vertices.back())) > 0.7) continue;
+    ++count;
+    ++sharp[a];
+    ++sharp[b];
+  }
+  return count;
 }
 
 std::size_t count_new(TetMesh& mesh) {
@@ -186,6 +206,15 @@ Operators own_operators() {
   return own;
 }
 
+tetmend::Result improve_by_aspect(Mesh& mesh) {
+  Operators own = own_operators();
+  own.add_measure(
+      {"aspect", 0.3, [](const Point& a, const Point& b, const Point& c, const Point& d) {
+         return aspect({a, b, c, d});
+       }});
+  return tetmend::improve(mesh, {.operators = &own, .measure = "aspect"});
+}
+
 QualityIndicators improve_by_rounds(TetMesh& mesh) {
   const Operators own = own_operators();
   Run run(mesh, {.threads = 4, .operators = &own});
@@ -218,6 +247,7 @@ int main(int argc, char** argv) {
   for (std::size_t bin : histogram(mesh)) binned += bin;
   expect(binned == mesh.tet_count(), "(a) each tet is in a bin");
   look_around(mesh, *mesh.edges().begin());
+  std::printf("%zu sharp edges\n", count_sharp_edges(mesh));
   expect(count_new(mesh) > 0, "(c) edge removal makes tets");
   smooth(mesh);
   std::printf("%zu edges flipped away\n", flip_edges_away(mesh));
@@ -236,6 +266,14 @@ int main(int argc, char** argv) {
   for (TetEdge e : mesh.edges()) accepted += attempt(mesh, own, "my_flip", e).accepted() ? 1 : 0;
   expect(accepted > 0, "an operator of the program makes fewer tets of more");
   expect(mesh.check().empty(), "the mesh is sound after all that");
+  Mesh by_aspect = file;
+  const auto flat = [](const Mesh& of) {
+    const auto bins = histogram(TetMesh(of));
+    return bins[0] + bins[1] + bins[2];  // below 0.3
+  };
+  expect(improve_by_aspect(by_aspect).after.tets > 0, "improve() takes a measure of the program");
+  std::printf("%zu tets below an aspect of 0.3, %zu after\n", flat(file), flat(by_aspect));
+  expect(flat(by_aspect) < flat(file), "there are fewer tets that the measure calls bad");
   expect(tetmend::measure(mesh.to_mesh()).statistics.inverted == 0, "no tet is inverted");
   return 0;
 }

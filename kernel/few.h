@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-namespace tetmend::kernel {
+namespace tetmend {
 
 /// Up to N values lie in the object itself, more on the heap. So a walk returns what it found without
 /// asking for memory, as a rule, and nothing that a later walk could overwrite.
@@ -52,4 +52,4 @@ class Few {
   std::vector<T> more_;  // all of them, once there are more than N
 };
 
-}  // namespace tetmend::kernel
+}  // namespace tetmend
