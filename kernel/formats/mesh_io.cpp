@@ -30,6 +30,7 @@
 #include "kernel/formats/medit_elements.h"
 #include "kernel/formats/mfem.h"
 #include "kernel/formats/nastran.h"
+#include "kernel/formats/nastran_numbers.h"
 #include "kernel/formats/netgen.h"
 #include "kernel/formats/packed_file.h"
 #include "kernel/formats/room.h"
@@ -342,11 +343,14 @@ std::span<const std::string_view> mesh_variants(const std::filesystem::path& fil
   static constexpr std::array kOfVtk = {formats::kVtkAscii, formats::kVtkBinary};
   static constexpr std::array kOfTetgen = {formats::kTetgenFromZero, formats::kTetgenFromOne};
   static constexpr std::array kOfInp = {formats::kInpLists, formats::kInpRanges};
+  static constexpr std::array kOfNastran = {formats::kNastranShort, formats::kNastranLong,
+                                            formats::kNastranFree};
   const std::string extension = format_extension(file);
   if (extension == ".msh") return kOfGmsh;
   if (extension == ".vtk" || extension == ".vtu") return kOfVtk;
   if (extension == ".node" || extension == ".ele") return kOfTetgen;
   if (extension == ".inp") return kOfInp;
+  if (extension == ".bdf" || extension == ".nas") return kOfNastran;
   return {};
 }
 
