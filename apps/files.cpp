@@ -188,7 +188,7 @@ void add_carry_options(CLI::App& command, CarryOptions& options) {
       .add_option("--variant", options.variant,
                   "How OUT is written; default: as IN.\n.msh: '2.2 ASCII', '2.2 binary', '4.1 "
                   "ASCII',\n'4.1 binary'; .vtk, .vtu: ASCII, binary;\n.ele: 'from 0', 'from 1'; "
-                  ".inp: lists, ranges")
+                  ".inp: lists, ranges;\n.bdf: short, long, free")
       ->type_name("NAME");
   command.add_flag("--strict", options.strict, "Write nothing if anything of IN would be lost");
 }

@@ -393,9 +393,13 @@ Fact same_groups(const MeshData& before, const MeshData& after, const Scale& sca
   const auto now = contents_of_groups(after, scale);
   std::string first;
   std::size_t differing = 0;
+  std::size_t gone = 0;  // which another fact tells
   for (const auto& [name, content] : then) {
     const auto found = now.find(name);
-    if (found == now.end()) continue;  // named elsewhere
+    if (found == now.end()) {
+      ++gone;
+      continue;
+    }
     const double change = std::abs(found->second.volume - content.volume);
     if (found->second.elements == content.elements &&
         change <= kRounding * std::abs(content.volume)) {
@@ -405,8 +409,9 @@ Fact same_groups(const MeshData& before, const MeshData& after, const Scale& sca
   }
   const std::string text =
       differing == 0
-          ? fmt::format("triangles, edges and volumes of {} named groups: the same",
-                        grouped(then.size()))
+          ? fmt::format("triangles, edges and volumes of {} named groups{}: the same",
+                        grouped(then.size() - gone),
+                        gone == 0 ? "" : fmt::format(" that both have, of {}", then.size()))
           : fmt::format("{} groups have other triangles, edges or volumes, the first is {}",
                         grouped(differing), first);
   return {"group_contents", differing == 0, text, differing, std::uint64_t{0}};

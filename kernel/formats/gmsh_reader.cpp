@@ -166,6 +166,19 @@ class Reader {
     return line.substr(first, line.find_last_not_of(kBlanks) + 1 - first);
   }
 
+  /// The rest of the line, and those that follow where quotes end there: Gmsh's API takes any name.
+  std::string_view name_lines() {
+    const std::string_view line = text_.skip_line();
+    if (std::count(line.begin(), line.end(), '"') != 1) return line;
+    const std::string_view rest(line.data(), line.size() + text_.bytes_left());
+    const std::size_t end = rest.find('"', line.size());
+    if (end == std::string_view::npos || end > rest.find("\n$", line.size() - 1)) return line;
+    const std::size_t after = std::min(rest.find_first_not_of(" \t\r", end + 1), rest.size() - 1);
+    if (rest[after] != '\n') return line;  // it opens the next name
+    text_.seek(rest.data() + after + 1);
+    return rest.substr(0, end + 1);
+  }
+
   // Text in both codings.
   void read_names() {
     const std::size_t count = text_.count("names of groups", std::string_view("1 1 \"\"\n").size());
@@ -174,7 +187,7 @@ class Reader {
       group.dimension = static_cast<int>(text_.integer("the dimension of a group", 0, 3));
       group.number = text_.label("the number of a group");
       const char* place = text_.last_word();
-      const std::string_view line = text_.skip_line();
+      const std::string_view line = name_lines();
       const std::size_t first = line.find('"');
       const std::size_t last = line.rfind('"');
       const std::string_view bare = trimmed_name(line);  // some writers have no quotes

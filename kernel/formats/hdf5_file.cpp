@@ -135,14 +135,15 @@ class MemoryReader final : public Hdf5Reader {
       const Hdf5Handle inner(H5Tget_super(type), H5Tclose);
       if (H5Tget_size(inner) != 1) width = 0;
     } else if (H5Tget_class(type) != H5T_STRING || H5Tis_variable_str(type) != 0) {
-      width = width == 1 && table.extents.size() == 2 ? 1 : 0;  // of single characters
+      if (width != 1) width = 0;
     }
     if (width == 0) fail(path, "the table holds no texts");
     std::string all(table.count * width, '\0');
     if (!all.empty() && H5Dread(table.set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, all.data()) < 0) {
       fail(path, "the table cannot be read");
     }
-    if (width == 1 && table.extents.size() == 2) width = static_cast<std::size_t>(table.extents[1]);
+    const bool is_row = H5Tget_class(type) == H5T_INTEGER || table.extents.size() > 1;
+    if (width == 1 && is_row) width = static_cast<std::size_t>(table.extents.back());
     std::vector<std::string> rows;
     for (std::size_t at = 0; width > 0 && at < all.size(); at += width) {
       std::string row = all.substr(at, width);
@@ -237,6 +238,10 @@ class MemoryReader final : public Hdf5Reader {
         std::min<std::uint64_t>(H5Dget_storage_size(table.set), input_.size());
     std::uint64_t room = (is_packed ? stored * kMostUnpacked : stored) / bytes_each;
     table.count = 1;
+    if (std::find(table.extents.begin(), table.extents.end(), 0) != table.extents.end()) {
+      table.count = 0;
+      return;
+    }
     for (const hsize_t extent : table.extents) {
       if (extent > 0 && extent > room) {
         fail(path, fmt::format("{} rows or columns cannot fit into the {} bytes that are stored",
@@ -335,6 +340,12 @@ class MemoryWriter final : public Hdf5Writer {
     const Hdf5Handle type(H5Tarray_create2(H5T_NATIVE_SCHAR, 1, &columns), H5Tclose);
     const Hdf5Handle space(H5Screate_simple(1, &rows, nullptr), H5Sclose);
     write_table(path, type, space, all.data(), all.empty());
+  }
+
+  void write_characters(const std::string& path, const std::string& text) override {
+    const hsize_t size = text.size();
+    const Hdf5Handle space(H5Screate_simple(1, &size, nullptr), H5Sclose);
+    write_table(path, H5T_NATIVE_SCHAR, space, text.data(), text.empty());
   }
 
   void set(const std::string& path, const char* attribute, const Attribute& value) override {

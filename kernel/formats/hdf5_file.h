@@ -38,7 +38,8 @@ class Hdf5Reader {
   virtual DataArray::Values values(const std::string& table) const = 0;
   virtual std::vector<std::int64_t> integers(const std::string& table) const = 0;
   virtual std::vector<double> reals(const std::string& table) const = 0;
-  /// Rows of characters, up to the first that is zero, without blanks at the end.
+  /// Rows of characters, up to the first that is zero, without blanks at the end. A list of numbers of one
+  /// byte is one row.
   virtual std::vector<std::string> texts(const std::string& table) const = 0;
 
   virtual bool has(const std::string& path, const char* attribute) const = 0;
@@ -68,6 +69,8 @@ class Hdf5Writer {
   /// Each cut at, or filled up with zeros to, `width` characters.
   virtual void write_texts(const std::string& table, const std::vector<std::string>& texts,
                            std::size_t width) = 0;
+  /// A list of characters.
+  virtual void write_characters(const std::string& table, const std::string& text) = 0;
   virtual void set(const std::string& path, const char* attribute, const Attribute& value) = 0;
   /// The whole file; the last call.
   virtual std::string bytes() = 0;

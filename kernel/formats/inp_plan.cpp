@@ -267,7 +267,9 @@ std::size_t InpPlan::make_class(std::size_t k, Label part, Label label,
                                      [&](std::size_t g) { return groups[g].number == label; });
   // Without a deck edges are sets of nodes: as elements they would need a section.
   const bool is_element = !is_face && (has_deck_ || kind.vtk_type != kVtkEdge);
-  if (!has_label && (label != 0 || (!is_element && made.groups.empty()))) {
+  // Sections need sets, so elements of a new deck have one, whatever their label.
+  const bool needs_set = made.groups.empty() && (!is_element || !has_deck_);
+  if (!has_label && (label != 0 || needs_set)) {
     made.groups.push_back(label_group(kind.dimension, label));
   }
   std::sort(made.groups.begin(), made.groups.end());

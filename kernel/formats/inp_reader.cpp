@@ -171,6 +171,12 @@ class Reader {
     }
   }
 
+  /// Label_0: the elements of a deck that tetmend has made of a mesh where they have no label.
+  static bool is_unlabelled(const InpSet& set) {
+    Label label = 1;
+    return !set.of_nodes && to_label(set.key, label) && label == 0;
+  }
+
   /// Sets that sections name come first, in their order: their numbers are the labels.
   void number_sets() {
     std::set<Label> taken;
@@ -207,7 +213,9 @@ class Reader {
       if (!set.of_nodes) of_elements.insert(set.number);
     }
     taken = of_elements;
-    for (InpSet& set : sets_.all) number(set.number);
+    for (InpSet& set : sets_.all) {
+      if (!is_unlabelled(set)) number(set.number);
+    }
     for (InpFaceUse& use : faces_.uses) {
       if (!(use.is_surface && to_label(inp_key(use.name), use.number))) number(use.number);
     }
@@ -289,6 +297,7 @@ class Reader {
         continue;
       }
       const InpSet& set = sets_.all[s];
+      if (is_unlabelled(set)) return 0;
       if (label == 0 && to_label(set.key, label)) continue;
       if (!section_sets_.contains(&set)) continue;
       section = section == 0 ? set.number : std::min(section, set.number);
@@ -381,7 +390,7 @@ class Reader {
     for (std::size_t s = 0; s < sets; ++s) {
       InpSet& set = sets_.all[s];
       Label label = 0;
-      const bool is_label = to_label(set.key, label) && label != 0;
+      const bool is_label = to_label(set.key, label) && (label != 0 || is_unlabelled(set));
       const std::string name = is_label ? std::string() : set.name;
       if (set.of_nodes) {
         add_point_group(set, name, is_label);

@@ -15,8 +15,10 @@
 #include <fmt/format.h>
 
 #include "kernel/error.h"
+#include "kernel/formats/cgns.h"
 #include "kernel/formats/degenerate.h"
 #include "kernel/formats/elmer.h"
+#include "kernel/formats/exodus.h"
 #include "kernel/formats/febio.h"
 #include "kernel/formats/gmsh.h"
 #include "kernel/formats/hdf5_file.h"
@@ -28,6 +30,7 @@
 #include "kernel/formats/medit_elements.h"
 #include "kernel/formats/mfem.h"
 #include "kernel/formats/nastran.h"
+#include "kernel/formats/nastran_numbers.h"
 #include "kernel/formats/netgen.h"
 #include "kernel/formats/packed_file.h"
 #include "kernel/formats/room.h"
@@ -39,6 +42,7 @@
 #include "kernel/formats/vtk_legacy.h"
 #include "kernel/formats/vtk_roles.h"
 #include "kernel/formats/vtu.h"
+#include "kernel/formats/xdmf.h"
 #include "kernel/nearest_word.h"
 #include "kernel/second_order.h"
 
@@ -66,27 +70,21 @@ MeshData read_plain(const std::filesystem::path& file, const formats::ReadReques
   return Read(file, request.question);
 }
 
-constexpr std::array<MeshFormat, 19> kFormatsTable = {{{"MEDIT ASCII", ".mesh"},
-                                                       {"MEDIT binary", ".meshb"},
-                                                       {"TetGen", ".node"},
-                                                       {"TetGen", ".ele"},
-                                                       {"legacy VTK", ".vtk"},
-                                                       {"VTK XML", ".vtu"},
-                                                       {"Gmsh", ".msh"},
-                                                       {"Abaqus, CalculiX", ".inp"},
-                                                       {"SU2", ".su2"},
-                                                       {"Netgen", ".vol"},
-                                                       {"Nastran", ".bdf"},
-                                                       {"Nastran", ".nas"},
-                                                       {"Elmer", ".header"},
-                                                       {"I-DEAS universal", ".unv"},
-                                                       {"MFEM", ".mfem"},
-                                                       {"LS-DYNA", ".k"},
-                                                       {"LS-DYNA", ".key"},
-                                                       {"FEBio", ".feb"},
-                                                       {"MED", ".med"}}};
+constexpr std::array<MeshFormat, 24> kFormatsTable = {
+    {{"MEDIT ASCII", ".mesh"}, {"MEDIT binary", ".meshb"},
+     {"TetGen", ".node"},      {"TetGen", ".ele"},
+     {"legacy VTK", ".vtk"},   {"VTK XML", ".vtu"},
+     {"Gmsh", ".msh"},         {"Abaqus, CalculiX", ".inp"},
+     {"SU2", ".su2"},          {"Netgen", ".vol"},
+     {"Nastran", ".bdf"},      {"Nastran", ".nas"},
+     {"Elmer", ".header"},     {"I-DEAS universal", ".unv"},
+     {"MFEM", ".mfem"},        {"LS-DYNA", ".k"},
+     {"LS-DYNA", ".key"},      {"FEBio", ".feb"},
+     {"Exodus II", ".e"},      {"Exodus II", ".exo"},
+     {"Exodus II", ".g"},      {"MED", ".med"},
+     {"CGNS", ".cgns"},        {"XDMF", ".xdmf"}}};
 
-constexpr std::size_t kOfHdf5 = 1;  // the last of them
+constexpr std::size_t kOfHdf5 = 3;  // the last of them
 
 constexpr Room kMeditRoom = {.others = true,
                              .required_vertices = true,
@@ -190,8 +188,41 @@ constexpr Room kFebioRoom = {.groups = true,
                              .holds = formats::febio_holds,
                              .deck = formats::kFebio};
 
+constexpr Room kExodusRoom = {.data = true,
+                              .data_of = formats::kDataOfAllButFaces,
+                              .groups = true,
+                              .geometry = false,
+                              .others = true,
+                              .second_order = true,
+                              .point_labels = false,
+                              .holds = formats::exodus_holds,
+                              .takes_name = formats::is_exodus_name,
+                              .low_labels = false,
+                              .deck = formats::kExodus};
+
+constexpr Room kCgnsRoom = {.data = true,
+                            .data_of = formats::kDataOfVolumes,
+                            .groups = true,
+                            .geometry = false,
+                            .others = true,
+                            .second_order = true,
+                            .point_labels = false,
+                            .holds = formats::cgns_holds,
+                            .takes_name = formats::is_cgns_name,
+                            .low_labels = false,
+                            .deck = formats::kCgns};
+
+constexpr Room kXdmfRoom = {.data = true,
+                            .data_of = formats::kDataOfVolumes,
+                            .others = true,
+                            .second_order = true,
+                            .point_labels = false,
+                            .holds = formats::xdmf_holds,
+                            .names_are_text = true,
+                            .deck = formats::kXdmf};
+
 // In the order of formats_table.
-constexpr std::array<Codec, 19> kCodecs = {
+constexpr std::array<Codec, 24> kCodecs = {
     {{read_plain<formats::read_medit_ascii>, formats::write_medit_ascii, kMeditRoom},
      {read_plain<formats::read_medit_binary>, formats::write_medit_binary, kMeditRoom},
      {read_plain<formats::read_tetgen>, formats::write_tetgen, kTetgenRoom, true},
@@ -214,7 +245,17 @@ constexpr std::array<Codec, 19> kCodecs = {
      {read_plain<formats::read_lsdyna>, formats::write_lsdyna, kLsDynaRoom, false,
       formats::not_in_lsdyna},
      {read_plain<formats::read_febio>, formats::write_febio, kFebioRoom},
-     {read_plain<formats::read_med>, formats::write_med, kMedRoom, false, formats::not_in_med}}};
+     {read_plain<formats::read_exodus>, formats::write_exodus, kExodusRoom, false,
+      formats::not_in_exodus},
+     {read_plain<formats::read_exodus>, formats::write_exodus, kExodusRoom, false,
+      formats::not_in_exodus},
+     {read_plain<formats::read_exodus>, formats::write_exodus, kExodusRoom, false,
+      formats::not_in_exodus},
+     {read_plain<formats::read_med>, formats::write_med, kMedRoom, false, formats::not_in_med},
+     {read_plain<formats::read_cgns>, formats::write_cgns, kCgnsRoom, false, formats::not_in_cgns},
+     {formats::read_xdmf, formats::write_xdmf, kXdmfRoom, true, formats::not_in_xdmf}}};
+
+static_assert(kFormatsTable.size() == kCodecs.size() && kCodecs.back().read != nullptr);
 
 /// Of "part.VTU.gz" that is ".vtu".
 std::string format_extension(const std::filesystem::path& file) {
@@ -315,11 +356,14 @@ std::span<const std::string_view> mesh_variants(const std::filesystem::path& fil
   static constexpr std::array kOfVtk = {formats::kVtkAscii, formats::kVtkBinary};
   static constexpr std::array kOfTetgen = {formats::kTetgenFromZero, formats::kTetgenFromOne};
   static constexpr std::array kOfInp = {formats::kInpLists, formats::kInpRanges};
+  static constexpr std::array kOfNastran = {formats::kNastranShort, formats::kNastranLong,
+                                            formats::kNastranFree};
   const std::string extension = format_extension(file);
   if (extension == ".msh") return kOfGmsh;
   if (extension == ".vtk" || extension == ".vtu") return kOfVtk;
   if (extension == ".node" || extension == ".ele") return kOfTetgen;
   if (extension == ".inp") return kOfInp;
+  if (extension == ".bdf" || extension == ".nas") return kOfNastran;
   return {};
 }
 
@@ -327,6 +371,7 @@ std::vector<std::filesystem::path> mesh_files(const std::filesystem::path& file)
   const std::string extension = formats::has_packed_name(file) ? "" : format_extension(file);
   if (extension == ".node" || extension == ".ele") return formats::tetgen_files(file);
   if (extension == ".header") return formats::elmer_files(file);
+  if (extension == ".xdmf") return formats::xdmf_files(file);
   return {file};
 }
 

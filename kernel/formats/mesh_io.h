@@ -20,8 +20,8 @@ struct MeshFormat {
   std::string_view extension;  ///< ".mesh"
 };
 
-/// All formats of this build, in the order in which help lists them. One that a build may lack, .med, is
-/// known by its extension all the same, and the error of reading or writing says so.
+/// All formats of this build, in the order in which help lists them. Those that a build may lack, .med, .cgns
+/// and .xdmf, are known by their extensions all the same, and the error of reading or writing says so.
 std::span<const MeshFormat> mesh_formats();
 
 /// Reads a mesh. `.mesh` and `.meshb` are MEDIT, `.node` or `.ele` a TetGen pair (with `.face` and
@@ -29,7 +29,7 @@ std::span<const MeshFormat> mesh_formats();
 /// `.vtu` VTK XML, `.msh` Gmsh, ASCII or binary, of version 2.2 or 4.1, `.inp` a deck of Abaqus or
 /// CalculiX, `.su2` SU2, `.vol` Netgen, `.bdf` or `.nas` Nastran, `.header` a folder of Elmer,
 /// `.unv` I-DEAS universal, `.mfem` MFEM, as `.mesh` may be, `.k` or `.key` LS-DYNA, `.feb` FEBio,
-/// `.med` MED of Salome.
+/// `.med` MED of Salome, `.e`, `.exo` or `.g` Exodus II, `.cgns` CGNS, `.xdmf` XDMF with its tables beside it.
 /// What the file holds beyond MeshData is named in its `notes`, and so are degenerate elements, see
 /// formats/degenerate.h. Volume elements that cannot be kept are an error.
 /// @param label_array the array of cells that holds the labels; empty: the one with a name that

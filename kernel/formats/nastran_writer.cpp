@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Writes Nastran's bulk data in free fields, and around them the rest of the deck.
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <map>
 #include <set>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -16,71 +18,13 @@
 #include "kernel/formats/included_path.h"
 #include "kernel/formats/nastran.h"
 #include "kernel/formats/nastran_card.h"
+#include "kernel/formats/nastran_numbers.h"
 #include "kernel/formats/nastran_systems.h"
 #include "kernel/formats/new_numbers.h"
 #include "kernel/formats/output_rows.h"
 
 namespace tetmend::formats {
 namespace {
-
-/// Reals have a point.
-std::string with_all_digits(double value) {
-  std::array<char, 32> text{};
-  const auto [end, error] = std::to_chars(text.data(), text.data() + text.size(), value);
-  std::string digits(text.data(), static_cast<std::size_t>(end - text.data()));
-  const std::size_t exponent = std::min(digits.find('e'), digits.size());
-  if (digits.find('.') == std::string::npos) digits.insert(exponent, 1, '.');
-  return digits;
-}
-
-/// "1.25e-01" as ".125" or "1.25-1", in as few characters as possible.
-std::string short_form(std::string_view scientific) {
-  const std::size_t e = scientific.find('e');
-  const int exponent = std::stoi(std::string(scientific.substr(e + 1)));
-  const std::string_view sign = scientific.starts_with('-') ? "-" : "";
-  std::string memory(scientific.substr(sign.size(), e - sign.size()));
-  std::erase(memory, '.');
-  memory.resize(std::max<std::size_t>(1, memory.find_last_not_of('0') + 1));
-  const std::string_view digits = memory;
-  const std::string with_exponent =
-      fmt::format("{}{}.{}{:+}", sign, digits.substr(0, 1), digits.substr(1), exponent);
-  constexpr int kRoom = static_cast<int>(kNastranRoom);
-  if (exponent < -kRoom || exponent >= kRoom) return with_exponent;
-  std::string fixed;
-  if (exponent < 0) {
-    fixed = fmt::format("{}.{:0>{}}{}", sign, "", -exponent - 1, digits);
-  } else {
-    const auto whole = static_cast<std::size_t>(exponent) + 1;
-    const std::size_t given = std::min(whole, digits.size());
-    fixed = fmt::format("{}{}{:0>{}}.{}", sign, digits.substr(0, given), "", whole - given,
-                        digits.substr(given));
-  }
-  return fixed.size() <= with_exponent.size() ? fixed : with_exponent;
-}
-
-/// The same number in the room that a solver reads, in a short form; empty if it needs more.
-std::string shortened(double value) {
-  constexpr std::size_t kMostDigits = 15;
-  std::array<char, 32> memory{};
-  const auto [end, error] = std::to_chars(memory.data(), memory.data() + memory.size(), value,
-                                          std::chars_format::scientific);
-  const std::string_view shortest(memory.data(), static_cast<std::size_t>(end - memory.data()));
-  constexpr std::size_t kSigns = 2;  // of the number, and its point
-  if (shortest.find('e') > kMostDigits + kSigns) return {};
-  std::string text = short_form(shortest);
-  return text.size() <= kNastranRoom ? text : std::string();
-}
-
-/// The nearest number that has room.
-std::string rounded_to_room(double value) {
-  constexpr int kMostDigits = 15;
-  for (int digits = kMostDigits; digits > 0; --digits) {
-    std::string text = short_form(fmt::format("{:.{}e}", value, digits - 1));
-    double again = 0;  // the greatest numbers must not be rounded up
-    if (text.size() <= kNastranRoom && nastran_real(text, again)) return text;
-  }
-  return with_all_digits(value);
-}
 
 /// What elements of one number have to tell them apart: dimension, and number of corners.
 using Corners = std::pair<int, std::size_t>;
@@ -161,6 +105,9 @@ class Writer {
   Writer(const std::filesystem::path& file, const MeshView& mesh)
       : out_(file), mesh_(mesh), lists_(mesh) {
     const MeshData* data = mesh.data();
+    for (const std::string_view form : {kNastranShort, kNastranLong, kNastranFree}) {
+      if (mesh.variant() == form) form_ = form;
+    }
     was_deck_ = data != nullptr && data->variant == kNastran;
     if (was_deck_ && data->deck.size() >= nastran_pieces) {
       deck_ = &data->deck;
@@ -296,10 +243,19 @@ class Writer {
       NastranCardText card;
       if (!known.empty()) NastranLines(known.data(), known.data() + known.size()).read(card);
       const NastranSystem* system = known.empty() ? nullptr : system_of(card);
-      if (!known.empty() && stands_at(card, system, mesh_.point(i))) return buffer.put(known);
+      if (!known.empty() && stands_at(card, system, mesh_.point(i))) return put_known(buffer, card);
       const Point& point = mesh_.point(i);
       put_point(buffer, i, card, system == nullptr ? point : system->from_basic(point));
     });
+  }
+
+  /// A card of the deck: word for word, if it may stand in any form.
+  void put_known(OutputBuffer& buffer, const NastranCardText& card) const {
+    if (form_.empty()) return buffer.put(card.text);
+    for (const std::string_view comment : card.comments) buffer.put(comment);
+    std::vector<std::string> fields(card.fields.begin(), card.fields.end());
+    while (!fields.empty() && fields.back().empty()) fields.pop_back();
+    put_nastran_card(buffer, card.name, fields, card.name == "GRID" ? form_ : element_form());
   }
 
   /// In which a point of the deck is given; null: the basic one.
@@ -323,10 +279,10 @@ class Writer {
     if (card.fields.empty() && default_system_ != 0) fields[1] = "0";
     for (std::size_t k = 0; k < 3; ++k) {
       const double value = coordinates[static_cast<Eigen::Index>(k)];
-      reals[k] = with_all_digits(value);
+      reals[k] = nastran_digits(value);
       if (reals[k].size() > kNastranRoom) {
-        std::string short_text = shortened(value);
-        if (short_text.empty() && was_deck_) short_text = rounded_to_room(value);
+        std::string short_text = nastran_short_form(value, kNastranRoom);
+        if (short_text.empty() && was_deck_) short_text = nastran_rounded(value);
         if (!short_text.empty()) reals[k] = std::move(short_text);
       }
       fields[2 + k] = reals[k];
@@ -334,6 +290,7 @@ class Writer {
     for (std::size_t k = 5; k < 8; ++k) fields[k] = card.field(k);
     std::size_t count = fields.size();
     while (count > 5 && fields[count - 1].empty()) --count;
+    if (!form_.empty()) return put_point_as(buffer, {fields.data(), count}, coordinates);
     const bool is_fixed = std::all_of(fields.begin(), fields.end(), [](std::string_view field) {
       return field.size() <= kNastranRoom;
     });
@@ -349,6 +306,20 @@ class Writer {
       buffer.put(fields[k]);
     }
     buffer.put('\n');
+  }
+
+  /// In the form that was asked for, with digits that have room in it.
+  void put_point_as(OutputBuffer& buffer, std::span<const std::string_view> fields,
+                    const Point& coordinates) const {
+    std::vector<std::string> all(fields.begin(), fields.end());
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double value = coordinates[static_cast<Eigen::Index>(k)];
+      std::string text =
+          form_ == kNastranShort ? nastran_real_field(value, kNastranShortRoom) : std::string();
+      if (form_ == kNastranFree) text = nastran_digits(value);
+      if (!text.empty()) all[2 + k] = std::move(text);
+    }
+    put_nastran_card(buffer, "GRID", all, form_);
   }
 
   /// True if the card says just this place.
@@ -372,7 +343,12 @@ class Writer {
       const std::int64_t number = elements_[k][i];
       const std::string_view whole =
           elements_of_deck_.of(number, {list.kind.dimension, list.kind.corners});
-      if (!whole.empty()) return buffer.put(whole);
+      if (!whole.empty()) {
+        NastranCardText known;
+        NastranLines(whole.data(), whole.data() + whole.size()).read(known);
+        return put_known(buffer, known);
+      }
+      if (!form_.empty()) return put_element_as(buffer, card->name, k, i);
       buffer.put(card->name);
       buffer.put(',');
       buffer.put_integer(number);
@@ -388,11 +364,34 @@ class Writer {
     });
   }
 
-  void put_nodes(OutputBuffer& buffer, const ElementList& list, std::size_t i) const {
+  void put_element_as(OutputBuffer& buffer, std::string_view name, std::size_t k,
+                      std::size_t i) const {
+    const ElementList& list = lists_.all()[k];
+    const Label label = list.label(i);
+    const bool is_blank = label == 0 && was_deck_;
+    std::vector<std::string> fields = {fmt::to_string(elements_[k][i])};
+    fields.push_back(is_blank ? "" : fmt::to_string(label > 0 ? label : properties_.at(label)));
+    const auto listed = listed_nodes(list, i);
+    for (std::size_t n = 0; n < list.kind.width; ++n)
+      fields.push_back(fmt::to_string(points_[listed[n]]));
+    put_nastran_card(buffer, name, fields, element_form());
+  }
+
+  /// Whole numbers have room in short fields, and some programs read elements in these alone.
+  std::string_view element_form() const { return form_ == kNastranFree ? form_ : kNastranShort; }
+
+  static std::array<std::uint32_t, kMostVerticesOfElement> listed_nodes(const ElementList& list,
+                                                                        std::size_t i) {
     const auto v = list.vertices(i);
     const std::uint8_t* order = nastran_order(list.kind.vtk_type);
     std::array<std::uint32_t, kMostVerticesOfElement> listed{};
     for (std::size_t k = 0; k < v.size(); ++k) listed[order == nullptr ? k : order[k]] = v[k];
+    return listed;
+  }
+
+  void put_nodes(OutputBuffer& buffer, const ElementList& list, std::size_t i) const {
+    const auto v = list.vertices(i);
+    const auto listed = listed_nodes(list, i);
     for (std::size_t k = 0; k < v.size(); ++k) {
       if (k == 6 || k == 14) buffer.put(",+\n+");  // eight fields a line, the first two are taken
       buffer.put(',');
@@ -405,6 +404,7 @@ class Writer {
   ElementLists lists_;
   const std::vector<std::string>* deck_ = nullptr;  // null: not ours
   bool was_deck_ = false;                           // the mesh came from one
+  std::string_view form_;                           // that was asked for; empty: as it likes
   WholeCards points_of_deck_, elements_of_deck_;
   std::map<std::int64_t, NastranSystem> systems_;
   std::int64_t default_system_ = 0;  // of GRDSET

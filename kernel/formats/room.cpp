@@ -8,11 +8,14 @@
 
 #include <fmt/format.h>
 
+#include "kernel/formats/cgns.h"
+#include "kernel/formats/exodus.h"
 #include "kernel/formats/label_names.h"
 #include "kernel/formats/med.h"
 #include "kernel/formats/medit_marks.h"
 #include "kernel/formats/medit_vectors.h"
 #include "kernel/formats/vtk_roles.h"
+#include "kernel/formats/xdmf.h"
 #include "kernel/parts.h"
 #include "kernel/printable.h"
 
@@ -145,12 +148,13 @@ bool is_word(std::string_view name) {
 std::vector<std::string> lost_in(const Room& room, const std::string& extension,
                                  const MeshData& mesh) {
   LostNotes notes(extension);
-  if (!room.data) {
-    notes.arrays("points", mesh.point_data, room);
-    notes.arrays("tets", mesh.tet_data, room);
-    notes.arrays("triangles", mesh.triangle_data, room);
-    notes.arrays("edges", mesh.edge_data, room);
-  }
+  const auto has_data = [&](int dimension) {
+    return room.data && (room.data_of >> dimension & 1U) != 0;
+  };
+  if (!has_data(0)) notes.arrays("points", mesh.point_data, room);
+  if (!has_data(3)) notes.arrays("tets", mesh.tet_data, room);
+  if (!has_data(2)) notes.arrays("triangles", mesh.triangle_data, room);
+  if (!has_data(1)) notes.arrays("edges", mesh.edge_data, room);
   if (room.names_are_text) {
     notes.text_names("points", mesh.point_data);
     notes.text_names("tets", mesh.tet_data);
@@ -184,7 +188,11 @@ std::vector<std::string> lost_in(const Room& room, const std::string& extension,
   notes.lost(room.required_vertices || has_deck, mesh.required_vertices.size(),
              "required vertices are");
   notes.lost(has_deck || has_only_roles(mesh),
-             mesh.variant == kMed ? med_remarks_to_miss(mesh) : mesh.deck.size(),
+             mesh.variant == kMed      ? med_remarks_to_miss(mesh)
+             : mesh.variant == kExodus ? exodus_pieces_to_miss(mesh)
+             : mesh.variant == kCgns   ? cgns_pieces_to_miss(mesh)
+             : mesh.variant == kXdmf   ? 0
+                                       : mesh.deck.size(),
              "pieces of a deck, all that is no mesh, are");
   return std::move(notes.sentences);
 }

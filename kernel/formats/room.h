@@ -12,10 +12,11 @@ namespace tetmend::formats {
 
 /// What of a MeshData a format can hold besides points, tets and triangles.
 struct Room {
-  bool data = false;     ///< named arrays
-  bool groups = false;   ///< with names and parts
-  bool geometry = true;  ///< with groups, also entities and periodic links
-  bool others = false;   ///< elements of other kinds
+  bool data = false;      ///< named arrays
+  unsigned data_of = 15;  ///< where it has them: 1 << dimension of the elements
+  bool groups = false;    ///< with names and parts
+  bool geometry = true;   ///< with groups, also entities and periodic links
+  bool others = false;    ///< elements of other kinds
   bool required_vertices = false;
   bool second_order = false;       ///< as elements of other kinds
   bool second_order_edges = true;  ///< else only in a mesh with a deck of the format
@@ -39,6 +40,8 @@ struct Room {
   std::string_view deck = {};
 };
 
+inline constexpr unsigned kDataOfVolumes = 9;  // and points
+inline constexpr unsigned kDataOfAllButFaces = 11;
 inline constexpr unsigned kNamesOfTriangles = 1U << 2;
 inline constexpr unsigned kNamesOfElements = 14;
 inline constexpr unsigned kAllNames = 15;

@@ -156,3 +156,19 @@ TEST_CASE("tets that were torn from other elements are told, and those that stay
   moved.points[0].z() -= 1e-6;  // of wedges alone
   CHECK_FALSE(find(compare(mesh, MeshAccess::make(moved)), "other_elements").holds);
 }
+
+TEST_CASE("groups that only one of two meshes has are gone, and not told as the same") {
+  const auto with = [](std::vector<Group> groups) {
+    return Mesh({.points = {kPoints.begin(), kPoints.end()},
+                 .tets = {{0, 1, 2, 3}, {1, 2, 3, 4}},
+                 .tet_labels = {1, 2},
+                 .groups = std::move(groups)});
+  };
+  const Mesh first = with({{3, 1, "left"}, {3, 2, "right"}});
+  const std::vector<Fact> none = compare(first, with({}));
+  CHECK_FALSE(find(none, "groups").holds);
+  CHECK(find(none, "group_contents").text ==
+        "triangles, edges and volumes of 0 named groups that both have, of 2: the same");
+  CHECK(find(compare(first, first), "group_contents").text ==
+        "triangles, edges and volumes of 2 named groups: the same");
+}

@@ -556,3 +556,22 @@ TEST_CASE("a bad binary MSH file is refused with byte and reason") {
                    Bytes().text("$Nodes\n1\n").add(std::int32_t{1}).add_all<double>({0, nan, 0})) ==
         "a.msh: byte 61: nan is not a finite number: expected a coordinate of a node");
 }
+
+TEST_CASE("the name of a group may have a line break within its quotes, which .msh has not again") {
+  const TempFolder folder;
+  const std::string mesh =
+      "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n2\n3 1 \"upper\nhalf\"\n3 2 \"b\"\n"
+      "$EndPhysicalNames\n$Nodes\n5\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n5 0 0 -1\n$EndNodes\n"
+      "$Elements\n2\n1 4 2 1 1 1 2 3 4\n2 4 2 2 2 1 3 2 5\n$EndElements\n";
+  write_text(folder / "a.msh", mesh);
+  const MeshData data = read_mesh(folder / "a.msh");
+  REQUIRE(data.groups.size() == 2);
+  CHECK(data.groups[0].name == "upper\nhalf");
+  CHECK(data.groups[1].name == "b");
+  REQUIRE(not_written(folder / "b.msh", data).size() == 1);
+  CHECK(not_written(folder / "b.msh", data)[0].ends_with("the first is 'upper\\nhalf'"));
+  write_mesh(folder / "b.msh", data);
+  CHECK(read_mesh(folder / "b.msh").groups[1].name == "b");
+  write_text(folder / "c.msh", mesh.substr(0, mesh.find("half")) + mesh.substr(mesh.find("\n3 2")));
+  CHECK(error_of_reading(folder / "c.msh").starts_with("c.msh:6: ' \"upper' is not expected here"));
+}

@@ -869,3 +869,22 @@ TEST_CASE("a deck with any byte changed, or cut at any byte, is an error or give
   CHECK(is_sound(read_mesh(folder / "a.inp")));
   cut_at_each_byte(folder / "a.inp");
 }
+
+TEST_CASE("all volumes of a new deck have a set for a section, and come back without a label") {
+  const TempFolder folder;
+  MeshData mesh;
+  mesh.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, 0, -1}};
+  mesh.tets = {{{0, 1, 2, 3}, 0}, {{0, 2, 1, 4}, 3}};
+  write_mesh(folder / "a.inp", mesh);
+  const std::string text = read_text(folder / "a.inp");
+  CHECK(text.find("*ELEMENT, TYPE=C3D4, ELSET=Label_0\n1, 1, 2, 3, 4\n") != std::string::npos);
+  const MeshData again = read_mesh(folder / "a.inp");
+  CHECK(again.tets == mesh.tets);
+  write_mesh(folder / "b.inp", again);
+  CHECK(read_text(folder / "b.inp") == text);
+  const std::string sections =
+      "*SOLID SECTION, ELSET=Label_3, MATERIAL=M\n"
+      "*SOLID SECTION, ELSET=Label_0, MATERIAL=M\n";
+  write_text(folder / "c.inp", text + sections);
+  CHECK(read_mesh(folder / "c.inp").tets == mesh.tets);
+}

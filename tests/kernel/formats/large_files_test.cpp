@@ -22,7 +22,8 @@ void leave_out(MeshData& mesh, std::string_view extension) {
   const auto is_one_of = [&](std::initializer_list<std::string_view> list) {
     return std::find(list.begin(), list.end(), extension) != list.end();
   };
-  if (is_one_of({".su2", ".vol", ".bdf", ".nas", ".header", ".unv", ".mfem", ".k", ".key", ".feb"}))
+  if (is_one_of({".su2", ".vol", ".bdf", ".nas", ".header", ".unv", ".mfem", ".k", ".key", ".feb",
+                 ".xdmf"}))
     mesh.point_labels.clear();
   if (is_one_of({".su2", ".bdf", ".nas", ".mfem", ".k", ".key", ".feb"})) mesh.edges.clear();
   if (extension == ".vol") mesh.edges.resize(1);  // no edge twice
@@ -76,15 +77,20 @@ TEST_CASE("a large mesh is written and read alike by every number of threads, in
     const auto file = [&](std::string name) { return folder / name.append(extension); };
     on_threads(1, [&] { write_mesh(file("1"), mesh); });
     on_threads(4, [&] { write_mesh(file("4"), mesh); });
-    CHECK(read_text(file("1")) == read_text(file("4")));
+    const bool names_other = extension == ".xdmf";  // a file beside it
+    const auto text = [&](const std::filesystem::path& of) {
+      return read_text(names_other ? std::filesystem::path(of).replace_extension(".h5") : of);
+    };
+    CHECK(text(file("1")) == text(file("4")));
     if (format.name == "TetGen") {
       for (const char* part : {".node", ".ele", ".face", ".edge"}) {
         CHECK(read_text(file("1").replace_extension(part)) ==
               read_text(file("4").replace_extension(part)));
       }
     }
-    // A deck lists faces, not triangles: inp_test.cpp and others.
+    // A deck lists faces, not triangles: inp_test.cpp and others. Others sort elements by labels.
     if (extension == ".inp" || extension == ".feb" || format.name == "LS-DYNA") continue;
+    if (format.name == "Exodus II" || format.name == "CGNS") continue;
     for (const int threads : {1, 2, 5}) {
       CHECK(on_threads(threads, [&] { return same_mesh(read_mesh(file("1")), mesh); }));
     }
@@ -98,7 +104,11 @@ TEST_CASE("a view of a tet mesh is written as its data are") {
     const auto file = [&](std::string name) { return folder / name.append(format.extension); };
     write_mesh(file("view"), MeshView(mesh));
     write_mesh(file("data"), mesh.to_data());
-    CHECK(read_text(file("view")) == read_text(file("data")));
+    const auto text = [&](const std::filesystem::path& of) {
+      const bool names_other = format.extension == ".xdmf";  // a file beside it
+      return read_text(names_other ? std::filesystem::path(of).replace_extension(".h5") : of);
+    };
+    CHECK(text(file("view")) == text(file("data")));
   }
   CHECK(same_points(mesh.to_data(), large_mesh(".mesh")));
 }

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <string>
 
 #include <doctest/doctest.h>
 
@@ -657,4 +659,49 @@ TEST_CASE("the name of an included file that is too long for any is a file that 
       read(folder, replaced(text(), "FORCE ", "INCLUDE '" + std::string(5000, 'x') + "'\nFORCE "));
   REQUIRE(!mesh.notes.empty());
   CHECK(mesh.notes[0].find("includes is not read") != std::string::npos);
+
+TEST_CASE("a deck asked for in short, long or free fields has them, and says the same") {
+  const TempFolder folder;
+  MeshData mesh;
+  mesh.points = {{0, 0, 0}, {0.125, 0, 0}, {0, 1.0 / 3, 0}, {0, 0, -1.5e-12}};
+  mesh.tets = {{{0, 1, 2, 3}, 4}};
+  MeshView view(mesh);
+  const std::map<std::string, std::string> beginnings = {
+      {"short",
+       "BEGIN BULK\nGRID           1              0.      0.      0.\n"
+       "GRID           2           0.125      0.      0.\n"
+       "GRID,3,,0.,0.3333333333333333,0.\n"},
+      {"long",
+       "BEGIN BULK\nGRID*                  1                              0.              0.\n"
+       "*                     0.\n"},
+      {"free",
+       "BEGIN BULK\nGRID,1,,0.,0.,0.\nGRID,2,,0.125,0.,0.\nGRID,3,,0.,0.3333333333333333,0.\n"}};
+  for (const auto& [variant, beginning] : beginnings) {
+    CAPTURE(variant);
+    view.set_variant(variant);
+    write_mesh(folder / "a.bdf", view);
+    const std::string text = read_text(folder / "a.bdf");
+    CHECK(text.substr(0, beginning.size()) == beginning);
+    CHECK(text.find(variant == "free"
+                        ? "CTETRA,1,4,1,2,3,4"
+                        : "CTETRA         1       4       1       2       3       4\n") !=
+          std::string::npos);
+    CHECK(same_mesh(read_mesh(folder / "a.bdf"), mesh));
+  }
+}
+
+TEST_CASE("cards of a deck that say more keep it in the form that is asked for") {
+  const TempFolder folder;
+  write_text(
+      folder / "a.bdf",
+      "CORD2R,5,,0.,0.,0.,0.,0.,1.,+\n+,1.,0.,0.\nGRID,1,5,0.,0.,0.,5,123\nGRID,2,,1.,0.,0.\n"
+      "GRID,3,,0.,1.,0.\nGRID,4,,0.,0.,1.\nCTETRA,1,1,1,2,3,4\nENDDATA\n");
+  const MeshData mesh = read_mesh(folder / "a.bdf");
+  MeshView view(mesh);
+  view.set_variant("short");
+  write_mesh(folder / "b.bdf", view);
+  CHECK(read_text(folder / "b.bdf")
+            .find("GRID           1       5      0.      0.      0.       5     123\n") !=
+        std::string::npos);
+  CHECK(read_text(folder / "b.bdf").find("CORD2R,5,,0.") != std::string::npos);
 }

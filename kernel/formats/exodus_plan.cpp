@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: MIT
+// How a mesh becomes blocks and sets of Exodus II.
+#include "kernel/formats/exodus_plan.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <set>
+
+#include "kernel/formats/exodus.h"
+#include "kernel/formats/face_sides.h"
+#include "kernel/formats/unique_names.h"
+
+namespace tetmend::formats {
+namespace {
+
+constexpr std::uint8_t kNoVertex = 255;
+
+void number_all(ExodusPlan::Sets& sets) {
+  std::vector<ElementSet> all;
+  for (const auto& [set, members] : sets) all.push_back(set);
+  number_sets(all);
+  for (std::size_t s = 0; s < sets.size(); ++s) sets[s].first = std::move(all[s]);
+}
+
+/// From 1: the side of a volume that has all corners of a face.
+std::int32_t side_number(const ElementList& list, std::size_t volume,
+                         std::span<const std::uint32_t> face) {
+  const auto sides = exodus_sides(list.kind);
+  const auto vertices = list.vertices(volume);
+  const auto found = std::find_if(sides.begin(), sides.end(), [&](const ExodusSide& side) {
+    return std::all_of(side.begin(), side.end(), [&](std::uint8_t corner) {
+      return corner == kNoVertex ||
+             std::find(face.begin(), face.end(), vertices[corner]) != face.end();
+    });
+  });
+  return static_cast<std::int32_t>(found - sides.begin() + 1);
+}
+
+}  // namespace
+
+std::vector<std::string> exodus_pieces(const MeshData* mesh, std::string_view what) {
+  std::vector<std::string> found;
+  if (mesh == nullptr || mesh->variant != kExodus) return found;
+  for (const std::string& piece : mesh->deck) {
+    const std::size_t end = piece.find('\0');
+    if (end != std::string::npos && std::string_view(piece).substr(0, end) == what)
+      found.push_back(piece.substr(end + 1));
+  }
+  return found;
+}
+
+std::string fit_exodus_name(std::string name) {
+  if (is_exodus_name(name)) return name;
+  constexpr std::size_t kEnding = 4;  // which keeps names apart
+  for (char& c : name) {
+    if (static_cast<unsigned char>(c) < ' ') c = '_';
+  }
+  if (name.size() > kExodusName) name.resize(kExodusName - kEnding);
+  name.resize(name.find_last_not_of(' ') + 1);
+  return name;
+}
+
+ExodusPlan::ExodusPlan(const MeshView& mesh, const ElementLists& lists)
+    : mesh_(mesh), lists_(lists), members_(members_of_groups(mesh, lists)) {
+  collect_blocks();
+  collect_sets();
+}
+
+/// All but triangles and quadrilaterals that are faces of volumes, and were no elements before.
+void ExodusPlan::collect_blocks() {
+  std::set<Label> shells;
+  for (const std::string& number : exodus_pieces(mesh_.data(), "block"))
+    shells.insert(static_cast<Label>(std::strtol(number.c_str(), nullptr, 10)));
+  const auto sides = find_face_sides(mesh_, lists_);
+  std::size_t surface = 0;
+  is_side_.resize(lists_.all().size());
+  place.resize(lists_.all().size());
+  std::map<std::pair<std::uint32_t, Label>, std::size_t> block_of;
+  for (std::uint32_t k = 0; k < lists_.all().size(); ++k) {
+    const ElementList& list = lists_.all()[k];
+    const auto* of_list = list.kind.dimension == 2 ? &sides[surface++] : nullptr;
+    is_side_[k].resize(list.count, false);
+    place[k].resize(list.count);
+    for (std::uint32_t i = 0; i < list.count; ++i) {
+      const Label label = list.label(i);
+      if (of_list != nullptr) {
+        const FaceSides at = (*of_list)[i];
+        is_side_[k][i] = at.behind != kNoElement || at.front != kNoElement;
+        if (is_side_[k][i]) volume_of_[{k, i}] = at.behind != kNoElement ? at.behind : at.front;
+        if (is_side_[k][i] && !shells.contains(label)) continue;
+      }
+      const auto [at, is_new] = block_of.try_emplace({k, label}, blocks.size());
+      if (is_new) blocks.push_back({&list, k, label, {}, {label, {}, {}, {}}});
+      blocks[at->second].elements.push_back(i);
+    }
+  }
+  std::uint32_t next = 0;
+  std::vector<ElementSet> sets;
+  for (Block& block : blocks) {
+    for (const std::uint32_t i : block.elements) place[block.list_number][i] = ++next;
+    sets.push_back(block.set);
+  }
+  count = next;
+  number_sets(sets);
+  for (std::size_t b = 0; b < blocks.size(); ++b) blocks[b].set = std::move(sets[b]);
+}
+
+/// A group of all elements of some blocks, and of no others, names them if it is one block.
+ExodusPlan::Block* ExodusPlan::block_of_group(const Members& elements) {
+  if (elements.empty() || place[elements[0].list][elements[0].index] == 0) return nullptr;
+  for (Block& block : blocks) {
+    const bool fits = block.list_number == elements[0].list &&
+                      block.elements.size() == elements.size() && block.set.name.empty();
+    const auto is_member = [&](const GroupMembers::Member& member) {
+      return member.list == block.list_number && block.list->label(member.index) == block.label;
+    };
+    if (fits && std::all_of(elements.begin(), elements.end(), is_member)) return &block;
+  }
+  return nullptr;
+}
+
+void ExodusPlan::collect_sets() {
+  UniqueNames changed;
+  std::vector<std::vector<bool>> is_named(lists_.all().size());
+  for (std::size_t k = 0; k < is_named.size(); ++k) is_named[k].resize(lists_.all()[k].count);
+  for (std::size_t g = 0; g < members_.size(); ++g) {
+    if (group(g).name.empty() && group(g).dimension > 0) continue;  // it is a label
+    std::string name = fit_exodus_name(group(g).name);
+    if (name != group(g).name) name = changed.make(name);
+    ElementSet set{group(g).number, std::move(name), members_[g].points, {}};
+    if (group(g).dimension == 0) {
+      node_sets.push_back(std::move(set));
+      continue;
+    }
+    if (Block* block = block_of_group(members_[g].elements)) {
+      block->set.name = set.name;
+      continue;
+    }
+    Members sides, elements;
+    for (const auto& [k, i] : members_[g].elements) {
+      (is_side_[k][i] ? sides : elements).push_back({k, i});
+      is_named[k][i] = true;
+    }
+    if (!sides.empty()) side_sets.emplace_back(set, std::move(sides));
+    if (!elements.empty()) element_sets.emplace_back(set, std::move(elements));
+  }
+  add_unnamed_faces(is_named);
+  number_sets(node_sets);
+  number_all(side_sets);
+  number_all(element_sets);
+}
+
+void ExodusPlan::add_unnamed_faces(const std::vector<std::vector<bool>>& is_named) {
+  std::map<Label, std::size_t> of_label;
+  for (std::uint32_t k = 0; k < lists_.all().size(); ++k) {
+    for (std::uint32_t i = 0; i < lists_.all()[k].count; ++i) {
+      if (!is_side_[k][i] || is_named[k][i] || place[k][i] != 0) continue;
+      const Label label = lists_.all()[k].label(i);
+      const auto [at, is_new] = of_label.try_emplace(label, side_sets.size());
+      if (is_new) side_sets.push_back({{label, {}, {}, {}}, {}});
+      side_sets[at->second].second.push_back({k, i});
+    }
+  }
+}
+
+std::pair<std::int32_t, std::int32_t> ExodusPlan::side(const GroupMembers::Member& face) const {
+  std::uint32_t number = volume_of_.at({face.list, face.index});
+  std::size_t volume = 0;
+  while (lists_.all()[volume].kind.dimension < 3 || number >= lists_.all()[volume].count) {
+    const ElementList& list = lists_.all()[volume++];
+    if (list.kind.dimension == 3) number -= static_cast<std::uint32_t>(list.count);
+  }
+  return {static_cast<std::int32_t>(place[volume][number]),
+          side_number(lists_.all()[volume], number, lists_.all()[face.list].vertices(face.index))};
+}
+
+}  // namespace tetmend::formats

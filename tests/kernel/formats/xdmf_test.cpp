@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: MIT
+// XDMF files: grids of tags, numbers in the file, steps, and elements that make no sense.
+#include "kernel/formats/xdmf.h"
+
+#include <doctest/doctest.h>
+
+#include "kernel/formats/hdf5_file.h"
+#include "tests/kernel/formats/fixtures.h"
+
+using namespace tetmend;
+using namespace tetmend::test;
+
+namespace {
+
+/// Two tets with a scalar, and tags of one of their faces, with all numbers in the file.
+std::string small_xdmf() {
+  return R"xdmf(<?xml version="1.0"?>
+<!DOCTYPE Xdmf SYSTEM "Xdmf.dtd" []>
+<Xdmf Version="3.0" xmlns:xi="https://www.w3.org/2001/XInclude">
+ <Domain>
+  <Grid Name="mesh" GridType="Uniform">
+   <Topology TopologyType="Tetrahedron" NumberOfElements="2" NodesPerElement="4">
+    <DataItem Dimensions="2 4" NumberType="Int" Format="XML">0 1 2 3  0 2 1 4</DataItem>
+   </Topology>
+   <Geometry GeometryType="XYZ">
+    <DataItem Dimensions="5 3" Format="XML">0 0 0  1 0 0  0 1 0  0 0 1  0 0 -1</DataItem>
+   </Geometry>
+  </Grid>
+  <Grid Name="parts" GridType="Uniform">
+   <xi:include xpointer="xpointer(/Xdmf/Domain/Grid/Geometry)" />
+   <Topology TopologyType="Tetrahedron" NumberOfElements="2" NodesPerElement="4">
+    <DataItem Dimensions="2 4" NumberType="Int" Format="XML">1 4 2 0  0 1 2 3</DataItem>
+   </Topology>
+   <Attribute Name="parts" AttributeType="Scalar" Center="Cell">
+    <DataItem Dimensions="2 1" NumberType="Int" Format="XML">8 7</DataItem>
+   </Attribute>
+  </Grid>
+  <Grid Name="walls" GridType="Uniform">
+   <xi:include xpointer="xpointer(/Xdmf/Domain/Grid/Geometry)" />
+   <Topology TopologyType="Triangle" NumberOfElements="1" NodesPerElement="3">
+    <DataItem Dimensions="1 3" NumberType="Int" Format="XML">0 1 3</DataItem>
+   </Topology>
+   <Attribute Name="walls" AttributeType="Scalar" Center="Cell">
+    <DataItem Dimensions="1 1" NumberType="Int" Format="XML">5</DataItem>
+   </Attribute>
+  </Grid>
+  <Grid Name="u" GridType="Collection" CollectionType="Temporal">
+   <Grid Name="u" GridType="Uniform">
+    <xi:include xpointer="xpointer(/Xdmf/Domain/Grid[1]/*[self::Topology or self::Geometry])" />
+    <Time Value="0" />
+    <Attribute Name="u" AttributeType="Scalar" Center="Node">
+     <DataItem Dimensions="5 1" Format="XML">1 2 3 4 5</DataItem>
+    </Attribute>
+   </Grid>
+   <Grid Name="u" GridType="Uniform">
+    <Time Value="1" />
+    <Attribute Name="u" AttributeType="Scalar" Center="Node">
+     <DataItem Dimensions="5 1" Format="XML">6 7 8 9 10</DataItem>
+    </Attribute>
+   </Grid>
+  </Grid>
+ </Domain>
+</Xdmf>
+)xdmf";
+}
+
+std::string replaced(std::string text, std::string_view what, std::string_view by) {
+  return text.replace(text.find(what), what.size(), by);
+}
+
+}  // namespace
+
+TEST_CASE("grids of tags label the tets and faces of an XDMF file, and the first step is kept") {
+  const TempFolder folder;
+  write_text(folder / "a.xdmf", small_xdmf());
+  const MeshData mesh = read_mesh(folder / "a.xdmf");
+  CHECK(mesh.tets == std::vector<MeshData::Tet>{{{0, 1, 2, 3}, 7}, {{0, 2, 1, 4}, 8}});
+  CHECK(mesh.triangles == std::vector<MeshData::Triangle>{{{0, 1, 3}, 5}});
+  REQUIRE(mesh.point_data.size() == 1);
+  CHECK(mesh.point_data[0] == DataArray{"u", 1, std::vector<double>{1, 2, 3, 4, 5}});
+  CHECK(mesh.notes == std::vector<std::string>{"of the 2 steps of 'u' only the first is kept"});
+}
+
+TEST_CASE("an XDMF file comes back with its grids of tags under their names") {
+  if (!formats::has_hdf5()) return;
+  const TempFolder folder;
+  write_text(folder / "a.xdmf", small_xdmf());
+  const MeshData mesh = read_mesh(folder / "a.xdmf");
+  CHECK(not_written(folder / "b.xdmf", mesh).empty());
+  write_mesh(folder / "b.xdmf", mesh);
+  CHECK(std::filesystem::exists(folder / "b.h5"));
+  const MeshData again = read_mesh(folder / "b.xdmf");
+  CHECK(again.tets == mesh.tets);
+  CHECK(again.triangles == mesh.triangles);
+  CHECK(again.point_data == mesh.point_data);
+  for (const char* name : {"Grid Name=\"parts\"", "Grid Name=\"walls\"", "Grid Name=\"mesh\""}) {
+    CHECK(read_text(folder / "b.xdmf").find(name) != std::string::npos);
+  }
+}
+
+TEST_CASE("XDMF that makes no sense is refused with file, line and reason") {
+  struct Case {
+    std::string_view what, by, error;
+  };
+  const std::vector<Case> bad = {
+      {"0 2 1 4", "0 2 1", "a.xdmf:7: the numbers end within a cell"},
+      {"0 2 1 4", "0 2 1 x", "a.xdmf:7: 'x' is not a number"},
+      {"\"XYZ\"", "\"XY\"", "a.xdmf:9: the geometry 'XY' cannot be read: expected XYZ"},
+      {"0 0 -1<", "0 0<", "a.xdmf:10: 14 numbers are not three for each point"},
+      {"0 0 -1<", "0 0 nan<", "a.xdmf:10: a coordinate of point 5 is not finite"},
+      {"\"Tetrahedron\"", "\"Tetrahedron_99\"", "a.xdmf:6: cells of type 'tetrahedron_99'"},
+      {"Format=\"XML\"", "Format=\"Binary\"", "a.xdmf:7: data of format 'Binary' cannot be read"},
+      {"</Domain>", "</Domai>", "a.xdmf:"}};
+  for (const Case& each : bad) {
+    CAPTURE(each.error);
+    const TempFolder folder;
+    write_text(folder / "a.xdmf", replaced(small_xdmf(), each.what, each.by));
+    CHECK(error_of_reading(folder / "a.xdmf").starts_with(each.error));
+  }
+}
