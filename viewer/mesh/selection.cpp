@@ -117,13 +117,11 @@ class Painter {
       const auto& across = kEdgeVertices[5 - e.edge()];
       const VertexHandle p = v[across[0]];
       const VertexHandle q = v[across[1]];
+      // Outlines: a veil over red tets has a colour of its own, which means nothing.
       for (const VertexHandle end : ends) {
-        face(end, p, q, kLinkFaceColour);
         line(end, p, kLinkEdgeColour, kThin);
         line(end, q, kLinkEdgeColour, kThin);
       }
-      face(ends[0], ends[1], p, kSupportingFaceColour);
-      face(ends[0], ends[1], q, kSupportingFaceColour);
       line(p, q, kSkirtColour, 4);
     }
     line(ends[0], ends[1], kSupportingEdgeColour, kWide);

@@ -81,10 +81,11 @@ void show_endings(const LedgerRow& row, const LedgerRow* there, std::string& cho
 void show_rows(Debugger& debugger, std::string& chosen) {
   constexpr ImGuiTableFlags kLooks = ImGuiTableFlags_RowBg;
   if (!ImGui::BeginTable("##ledger", 5, kLooks)) return;
-  const float font = ImGui::GetFontSize();
   ImGui::TableSetupColumn("operator", ImGuiTableColumnFlags_WidthStretch);
+  const std::string most = grouped(debugger.file().calls().size());
   for (const char* title : {"calls", "for good", "undone", "refused"}) {
-    ImGui::TableSetupColumn(title, ImGuiTableColumnFlags_WidthFixed, 4.4F * font);
+    const float width = std::max(ImGui::CalcTextSize(most.c_str()).x, ImGui::CalcTextSize(title).x);
+    ImGui::TableSetupColumn(title, ImGuiTableColumnFlags_WidthFixed, width);
   }
   ImGui::TableHeadersRow();
   std::vector<LedgerRow> rows = debugger.ledger().by_operator();
@@ -97,7 +98,8 @@ void show_rows(Debugger& debugger, std::string& chosen) {
     const LedgerRow* there = row_there(debugger, name, other);
     ImGui::TableNextRow();
     ImGui::TableNextColumn();
-    const bool is_open = ImGui::TreeNodeEx(name.c_str(), ImGuiTreeNodeFlags_NoTreePushOnOpen);
+    const bool is_open = ImGui::TreeNodeEx(name.c_str(), ImGuiTreeNodeFlags_NoTreePushOnOpen, "%s",
+                                           short_name(row.operator_name).c_str());
     if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", name.c_str());
     const std::string of = fmt::format("operator {}", name);
     count_cell(row.total().calls, of, chosen);
