@@ -133,10 +133,8 @@ class Painter {
   }
   void paint(VertexHandle v) {
     if (!mesh_.tet_of(v).is_valid()) return;
-    Colour colour = kLinkFaceColour;
     for (const TetHandle t : tets_at(mesh_, v)) {
       const auto c = mesh_.vertices(HalfFace(t, mesh_.local_index(t, v)));
-      face(c[0], c[1], c[2], colour);
       for (unsigned i = 0; i < 3; ++i) {
         line(c[i], c[(i + 1) % 3], kLinkEdgeColour, 1);
         line(v, c[i], kSkirtColour, kThin);

@@ -166,8 +166,10 @@ void list_in_tabs(Session& session, bool enters, bool leaves) {
   tab("Calls", leaves, [&](const Panel& panel) {
     return panel.side == Side::left && !is_mesh(panel) && !is_shell(panel);
   });
-  tab("Call", enters, is_shell,
-      [&](const Panel& panel) { return panel.side == Side::right && !is_mesh(panel); });
+  const auto is_of_pause = [](const Panel& panel) { return panel.draw == &draw_parameters_panel; };
+  tab("Call", enters, is_of_pause, is_shell, [&](const Panel& panel) {
+    return panel.side == Side::right && !is_mesh(panel) && !is_of_pause(panel);
+  });
   tab("Mesh", false, is_mesh);
   ImGui::EndTabBar();
 }
