@@ -2,7 +2,6 @@
 // How many keys and clicks a question takes, in a window of 1280 x 800.
 #include <doctest/doctest.h>
 
-#include "kernel/formats/mesh_io.h"
 #include "tests/support/example_traces.h"
 #include "tests/viewer/window.h"
 #include "trace/ledger.h"
@@ -35,7 +34,8 @@ TEST_CASE(
     "who refused most is there when a trace opens, and all those refusals are one click away") {
   if (!can_test_window()) return;
   const TracedBall trace;
-  const Ledger ledger = make_ledger(TraceFile(trace.path()));
+  const TraceFile file(trace.path());
+  const Ledger ledger = make_ledger(file);
   std::vector<LedgerRow> rows = ledger.by_operator();
   std::stable_sort(rows.begin(), rows.end(), [](const LedgerRow& a, const LedgerRow& b) {
     return a.refused().calls > b.refused().calls;
@@ -69,13 +69,13 @@ TEST_CASE("an operator is tried on a picked tet by two clicks, and undone by one
 
 TEST_CASE("pause, three calls back, explain, another parameter, go on: six actions") {
   if (!can_test_window()) return;
-  const TempFolder folder;
-  write_mesh(folder / "large.meshb", kuhn_cube(24, 0.3, 1));
-  Viewer viewer(folder / "large.meshb", kSize);
-  type("key F6 key F7");  // a run that is at work; the pause is the first action
+  Viewer viewer("sheet.mesh", kSize);
+  type("key shift+F6 sleep 1");  // always the same calls: F7 would come at any of them
+  for (int i = 0; i < 8; ++i) type("key F9 sleep 0.5");
+  wait_until_still();
   Hand hand;
-  ++hand.actions;
-  wait_until_still();  // the calls are shown
+  hand.key("F9");  // goes on, and is held at the next change
+  wait_until_still();
   for (int i = 0; i < 3; ++i) hand.key("Up");
   wait_until_still();     // why it ended as it did stands beside the picture
   hand.click(1030, 145);  // one more step for each vertex
