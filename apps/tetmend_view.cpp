@@ -112,7 +112,10 @@ void prepare(const Options& options, Document& document) {
   document.live.load_plugins(all_plugins(options.plugins));
   if (!options.size.empty()) document.resize(read_size(options.size));
   if (!options.before.empty()) document.compare_with(options.before);
-  if (!options.file.empty()) document.open(options.file);
+}
+
+/// When the file is open.
+void arrange(const Options& options, Document& document) {
   show_against(options, document);
   if (options.at) go_to(document, *options.at);
   show_reference(options, document);
@@ -200,8 +203,13 @@ int run(const Options& options) {
   Document document;
   prepare(options, document);
   if (options.script.empty() && options.picture.empty() && options.video.empty()) {
-    run_window(document, options.scale, !has_camera(options));
+    run_window(document, options.scale, options.file, [&](Document& opened) {
+      arrange(options, opened);
+      return !has_camera(options);
+    });
   } else {
+    if (!options.file.empty()) document.open(options.file);
+    arrange(options, document);
     document.show_panels = options.panels;
     const auto host = make_headless_host(options.scale > 0 ? options.scale : 1);
     Session session{document, *host};

@@ -136,8 +136,8 @@ std::string quality_text(const Call& call, const CallFacts& facts) {
   return fmt::format("{:.3f} -> {:.3f}", facts.quality_before, facts.quality_after);
 }
 
-std::string short_name(const TraceFile& file, const Call& call) {
-  switch (call.algorithm) {
+std::string short_name(std::string_view operator_name) {
+  switch (algorithm_of(operator_name)) {
     case Algorithm::recursion:
       return "recursion";
     case Algorithm::shell_transformation:
@@ -147,9 +147,13 @@ std::string short_name(const TraceFile& file, const Call& call) {
     default:
       break;
   }
-  std::string name(file.name(call.operator_name));
+  std::string name(operator_name);
   std::replace(name.begin(), name.end(), '_', ' ');
   return name;
+}
+
+std::string short_name(const TraceFile& file, const Call& call) {
+  return short_name(file.name(call.operator_name));
 }
 
 Outcome outcome_of(const Call& call) {

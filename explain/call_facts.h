@@ -39,6 +39,7 @@ std::uint32_t root_of(const TraceFile& file, std::uint32_t call);
 std::string format_target(const Call& call);
 /// Name of the operator, shortened for narrow columns: "recursion", "face removal".
 std::string short_name(const TraceFile& file, const Call& call);
+std::string short_name(std::string_view operator_name);
 
 /// "5 -> 4"
 std::string degree_text(const CallFacts& facts);

@@ -59,6 +59,8 @@ std::string event_text(const TraceFile& file, std::uint64_t position) {
       return "a candidate is found";
     case EventKind::standard_changes:
       return fmt::format("the goal becomes {}", describe(event.standard));
+    case EventKind::parameter_changes:
+      return fmt::format("a parameter changes: {}", file.name(event.name));
     case EventKind::pass_ends:
     case EventKind::visit_ends:
       break;

@@ -299,7 +299,7 @@ void Improvement::run_schedule(std::size_t passes, double seconds) {
   run.set_listener(&watcher_);
   const face::ArrayValues values(input_);
   run.set_values(&values);
-  run.set_trace(follower_ != nullptr ? follower_->follow(mesh_) : trace_.get());
+  run.set_trace(follower_ != nullptr ? follower_->follow(run) : trace_.get());
   contract::Inspector inspector;
   if (options_.check_operators) run.set_inspector(&inspector);
   watcher_.watch(&run, quality_indicators(mesh_));

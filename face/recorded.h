@@ -11,6 +11,7 @@
 
 #include "face/portrait.h"
 #include "kernel/mesh_view.h"
+#include "schedule/run.h"
 #include "trace/recorder.h"
 
 namespace tetmend::face {
@@ -29,9 +30,10 @@ Result improve(Mesh& mesh, const Options& options, Portrait* portrait);
 class Follower {
  public:
   virtual ~Follower() = default;
-  /// The passes over `mesh` begin, or begin anew where the run goes back. What is returned is told of
-  /// passes, attempts and edits, all in one thread, and may look at the mesh meanwhile; null: nothing.
-  virtual TraceSink* follow(const TetMesh& mesh) = 0;
+  /// The passes of `run` begin, or begin anew where it goes back; `run` is the one before no longer.
+  /// What is returned is told of passes, attempts and edits, all in one thread. It may look at the
+  /// mesh meanwhile, and hold parameters where a pass begins. Null: nothing.
+  virtual TraceSink* follow(Run& run) = 0;
 };
 
 /// As tetmend::improve(), followed. Options::trace must be empty: who follows may record.

@@ -55,6 +55,16 @@ void check(const OperatorInfo& info) {
   }
 }
 
+/// `settings`, but for what is held.
+ParameterSettings with(const ParameterSettings& held, ParameterSettings settings) {
+  for (const auto& [name, value] : held) {
+    std::erase_if(settings,
+                  [&, &name = name](const auto& setting) { return setting.first == name; });
+    settings.emplace_back(name, value);
+  }
+  return settings;
+}
+
 }  // namespace
 
 void Registry::add(const OperatorInfo& info, std::string_view origin) {
@@ -101,6 +111,7 @@ void Registry::add(const OperatorInfo& info, std::string_view origin, Maker make
   infos_.push_back(&info);
   origins_.emplace_back(origin);
   makers_.push_back(std::move(make));
+  held_.emplace_back();
 }
 
 std::size_t Registry::index_of(std::string_view name) const {
@@ -122,11 +133,18 @@ const std::string& Registry::origin(std::string_view name) const {
   return origins_[index_of(name)];
 }
 
+void Registry::hold(std::string_view name, std::string_view parameter, double value) {
+  const std::size_t i = index_of(name);
+  const ParameterSettings held = with({{std::string(parameter), value}}, held_[i]);
+  static_cast<void>(ParameterValues(name, infos_[i]->parameters, held));  // may refuse them
+  held_[i] = held;
+}
+
 std::unique_ptr<Operator> Registry::make(std::string_view name,
                                          const ParameterSettings& settings) const {
   const std::size_t i = index_of(name);
   const OperatorInfo& info = *infos_[i];
-  const ParameterValues values(info.name, info.parameters, settings);
+  const ParameterValues values(info.name, info.parameters, with(held_[i], settings));
   if (origins_[i].empty()) {
     std::unique_ptr<Operator> made = makers_[i](values);
     made->settings_ = values.describe();

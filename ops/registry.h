@@ -56,6 +56,10 @@ class TETMEND_API Registry {
   std::unique_ptr<Operator> make(std::string_view name,
                                  const ParameterSettings& settings = {}) const;
 
+  /// From now on make() gives a parameter this value, whatever it is asked for.
+  /// @throws Error for an unknown operator or parameter, or a value out of range.
+  void hold(std::string_view name, std::string_view parameter, double value);
+
  private:
   void add(const OperatorInfo& info, std::string_view origin, Maker make);
   std::size_t index_of(std::string_view name) const;
@@ -65,6 +69,7 @@ class TETMEND_API Registry {
   std::vector<Maker> makers_;
   std::vector<Standard> measures_;
   bool needs_whole_mesh_ = false;
+  std::vector<ParameterSettings> held_;  // of each operator
 };
 
 }  // namespace tetmend

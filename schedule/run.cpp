@@ -49,6 +49,12 @@ void Run::set_standard(const Standard& standard) {
   if (trace_ != nullptr) trace_->standard_changed(standard);
 }
 
+void Run::hold_parameter(std::string_view operator_name, std::string_view parameter, double value) {
+  if (!holding_) holding_ = std::make_unique<Registry>(registry_);
+  holding_->hold(operator_name, parameter, value);
+  last_sweep_.clear();
+}
+
 QualityIndicators Run::indicators() const {
   return is_measured_ ? records.back().after : quality_indicators(mesh_);
 }

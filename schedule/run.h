@@ -70,7 +70,11 @@ class Run {
 
   TetMesh& mesh() { return mesh_; }
   const TetMesh& mesh() const { return mesh_; }
-  const Registry& registry() const { return registry_; }
+  const Registry& registry() const { return holding_ ? *holding_ : registry_; }
+  /// From the next pass on, or from one that is just beginning, a parameter of an operator has this
+  /// value, whatever the schedule says. Nothing counts as tried then.
+  /// @throws Error as Registry::hold(). Precondition: no pass works.
+  void hold_parameter(std::string_view operator_name, std::string_view parameter, double value);
   /// The worker of the whole mesh.
   Worker& worker() { return worker_; }
 
@@ -171,6 +175,7 @@ class Run {
 
   TetMesh& mesh_;
   const Registry& registry_;
+  std::unique_ptr<Registry> holding_;  // in its place, once a parameter is held
   Worker worker_;
   tbb::enumerable_thread_specific<std::unique_ptr<Worker>> workers_;
   std::size_t block_count_ = 1;

@@ -62,16 +62,26 @@ std::string TraceFilter::describe() const {
 TraceRecorder::TraceRecorder(const std::filesystem::path& file, const TetMesh& mesh,
                              TraceHeader header, TraceFilter filter, TraceClock clock)
     : mesh_(mesh), filter_(std::move(filter)), clock_(clock), file_(file) {
+  begin(std::move(header));
+}
+
+TraceRecorder::TraceRecorder(std::string& memory, const TetMesh& mesh, TraceHeader header,
+                             TraceClock clock)
+    : mesh_(mesh), clock_(clock), memory_(&memory), file_(memory) {
+  begin(std::move(header));
+}
+
+void TraceRecorder::begin(TraceHeader header) {
   header.filter = filter_.describe();
   if (filter_.around) {
-    filter_.around->centre = mesh.scale().to_work(filter_.around->centre);
-    filter_.around->radius = mesh.scale().to_work(filter_.around->radius);
+    filter_.around->centre = mesh_.scale().to_work(filter_.around->centre);
+    filter_.around->radius = mesh_.scale().to_work(filter_.around->radius);
   }
   ByteWriter content;
   header.encode(content);
   write_frame('H', content.bytes());
   content.cut(0);
-  SlotMesh(mesh).encode(content);
+  SlotMesh(mesh_).encode(content);
   write_frame('M', content.bytes());
 }
 
@@ -91,27 +101,34 @@ void TraceRecorder::write_frame(char kind, std::span<const std::byte> content) {
   file_.write(file_.pack(whole.bytes()));
 }
 
-void TraceRecorder::write_end(TraceEnd end) {
+/// The last frame, packed.
+std::span<const std::byte> TraceRecorder::end_frame(TraceEnd end) {
   ByteWriter content;
+  content.put_raw('Z');
   content.put(events_);
   content.put(static_cast<std::uint64_t>(end));
-  write_frame('Z', content.bytes());
+  return file_.pack(content.bytes());
 }
 
-void TraceRecorder::write_chunk() {
-  if (encoder_.size() == 0) return;
+/// What is in the encoder, packed.
+std::span<const std::byte> TraceRecorder::chunk() {
   content_.cut(0);
   content_.put_raw('E');
   content_.put(chunk_begin_);
   content_.put(events_ - chunk_begin_);
   content_.put_bytes(encoder_.bytes().data(), encoder_.size());
+  return file_.pack(content_.bytes());
+}
+
+void TraceRecorder::write_chunk() {
+  if (encoder_.size() == 0) return;
   try {
     constexpr std::size_t kEndBytes = 64;
-    const auto packed = file_.pack(content_.bytes());
+    const auto packed = chunk();
     if (file_.written() + packed.size() + kEndBytes > filter_.most_bytes) {
       active_ = false;
       events_ = chunk_begin_;
-      write_end(TraceEnd::limit_reached);
+      file_.write(end_frame(TraceEnd::limit_reached));
     } else {
       file_.write(packed);
     }
@@ -125,18 +142,36 @@ void TraceRecorder::write_chunk() {
 }
 
 void TraceRecorder::finish() {
+  if (file_.is_in_memory()) return end();
   complete().commit();
 }
 
-formats::PendingFile& TraceRecorder::complete() {
+void TraceRecorder::end() {
   if (active_) {
     write_chunk();
-    if (active_) write_end(TraceEnd::complete);
+    if (active_) file_.write(end_frame(TraceEnd::complete));
   }
   active_ = false;
   if (!trouble_.empty()) throw Error(trouble_);
+}
+
+formats::PendingFile& TraceRecorder::complete() {
+  end();
   file_.file().finish();
   return file_.file();
+}
+
+std::string TraceRecorder::so_far() {
+  assert(file_.is_in_memory());
+  if (!trouble_.empty()) throw Error(trouble_);
+  std::string bytes = *memory_;
+  if (!active_) return bytes;
+  const auto append = [&](std::span<const std::byte> packed) {
+    bytes.append(reinterpret_cast<const char*>(packed.data()), packed.size());
+  };
+  if (encoder_.size() > 0) append(chunk());
+  append(end_frame(TraceEnd::complete));
+  return bytes;
 }
 
 /// What is half written when memory runs out is never read.
@@ -188,6 +223,13 @@ void TraceRecorder::visit_ends() {
 void TraceRecorder::standard_changed(const Standard& standard) {
   record([&] {
     encoder_.standard_changes(standard, ticks());
+    wrote_event();
+  });
+}
+
+void TraceRecorder::parameter_changed(std::string_view text) {
+  record([&] {
+    encoder_.parameter_changes(text, ticks());
     wrote_event();
   });
 }

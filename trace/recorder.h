@@ -71,6 +71,9 @@ class TraceRecorder final : public TraceSink {
   /// Precondition: `mesh` is the one of the run, outlives the recorder, and no transaction is open.
   TraceRecorder(const std::filesystem::path& file, const TetMesh& mesh, TraceHeader header,
                 TraceFilter filter = {}, TraceClock clock = TraceClock::real);
+  /// A trace in memory, for who looks at it with so_far(). Precondition: `memory` outlives this, too.
+  TraceRecorder(std::string& memory, const TetMesh& mesh, TraceHeader header,
+                TraceClock clock = TraceClock::real);
   /// Without finish() nothing stays.
   ~TraceRecorder() override;
   TraceRecorder(const TraceRecorder&) = delete;
@@ -83,14 +86,20 @@ class TraceRecorder final : public TraceSink {
   /// Writes what is left. No event may follow; the mesh is not looked at any more.
   /// @throws Error when the file could not be written, now or earlier.
   void finish();
-  /// The same, but the file gets its name later, by commit_all() or finish().
+  /// The same, but the file gets its name later, by commit_all() or finish(). Precondition: there is
+  /// a file.
   formats::PendingFile& complete();
+  /// A whole trace of what there is so far, also in the middle of an attempt; more events may
+  /// follow. Precondition: it is in memory. @throws Error when memory ran out earlier
+  std::string so_far();
 
   void pass_begins(std::string_view name, unsigned round) override;
   void pass_ends(const QualityIndicators& now) override;
   void visit_begins(const TetVertices& tet, Quality quality) override;
   void visit_ends() override;
   void standard_changed(const Standard& standard) override;
+  /// Between two passes a user has given an operator another value, in words.
+  void parameter_changed(std::string_view text);
   void attempt_begins(const AttemptEvent& event) override;
   void candidate_found() override;
   void attempt_ends(Verdict verdict, std::span<const Quality> before,
@@ -119,13 +128,17 @@ class TraceRecorder final : public TraceSink {
   void wrote_event();
   void begin_attempt(const AttemptEvent& event);
   void take_back_edit();
+  void begin(TraceHeader header);
+  void end();
+  std::span<const std::byte> chunk();
+  std::span<const std::byte> end_frame(TraceEnd end);
   void write_chunk();
   void write_frame(char kind, std::span<const std::byte> content);
-  void write_end(TraceEnd end);
 
   const TetMesh& mesh_;
   TraceFilter filter_;
   TraceClock clock_;
+  std::string* memory_ = nullptr;  // null: there is a file
   FrameWriter file_;
   std::string trouble_;
   bool active_ = true;

@@ -14,8 +14,9 @@ namespace tetmend {
 
 namespace {
 
-/// Stands for EventKind::replace_cavity at the surface: labels precede the tets.
-constexpr std::uint64_t kAtSurface = kEventKinds;
+/// Stands for EventKind::replace_cavity at the surface: labels precede the tets. The kinds from that
+/// number on have one more in the file.
+constexpr std::uint64_t kAtSurface = 13;
 
 bool has_labels(const Journal& journal, const Edit& edit) {
   const auto begin = journal.removed.begin() + edit.removed_begin;
@@ -31,6 +32,11 @@ void EventEncoder::clear() {
   out_.cut(0);
   last_ticks_ = 0;
   names_.clear();
+}
+
+void EventEncoder::put_kind(EventKind kind) {
+  const auto number = static_cast<std::uint64_t>(kind);
+  out_.put(number < kAtSurface ? number : number + 1);
 }
 
 void EventEncoder::put_time(std::uint64_t ticks) {
@@ -118,6 +124,12 @@ void EventEncoder::standard_changes(const Standard& standard, std::uint64_t tick
   put_kind(EventKind::standard_changes);
   put_time(ticks);
   put_standard(out_, standard);
+}
+
+void EventEncoder::parameter_changes(std::string_view text, std::uint64_t ticks) {
+  put_kind(EventKind::parameter_changes);
+  put_time(ticks);
+  put_name(text);
 }
 
 void EventEncoder::edit(const TetMesh& mesh, const Journal& journal) {
@@ -277,8 +289,9 @@ void check_labels(const TraceEvent& event) {
 
 void EventDecoder::next(TraceEvent& event) {
   const std::uint64_t kind = in_.get();
-  if (kind > kAtSurface) throw ByteReader::Damage(fmt::format("{} is no kind of event", kind));
-  event.kind = kind == kAtSurface ? EventKind::replace_cavity : static_cast<EventKind>(kind);
+  if (kind > kEventKinds) throw ByteReader::Damage(fmt::format("{} is no kind of event", kind));
+  event.kind = kind == kAtSurface ? EventKind::replace_cavity
+                                  : static_cast<EventKind>(kind < kAtSurface ? kind : kind - 1);
   event.created_labels.clear();
   if (kind == kAtSurface) get_labels(event);
   if (has_time(event.kind)) get_time(event);
@@ -325,6 +338,9 @@ void EventDecoder::next(TraceEvent& event) {
       if (event.kind == EventKind::remove_vertex) break;
       get_point(event);
       if (event.kind == EventKind::move_vertex) get_star(event);
+      break;
+    case EventKind::parameter_changes:
+      event.name = get_name().number;
       break;
     case EventKind::standard_changes:
       event.standard = get_standard(in_);

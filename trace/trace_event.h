@@ -30,16 +30,17 @@ enum class EventKind : std::uint8_t {
   move_vertex,
   add_vertex,
   remove_vertex,
-  undo,             ///< of the last edit that was not undone
-  standard_changes  ///< between two passes: tets are judged by another one
+  undo,              ///< of the last edit that was not undone
+  standard_changes,  ///< between two passes: tets are judged by another one
+  parameter_changes  ///< likewise: a user has given an operator another value
 };
-inline constexpr std::size_t kEventKinds = 13;
+inline constexpr std::size_t kEventKinds = 14;
 
 constexpr std::string_view to_string(EventKind kind) {
   constexpr std::array<std::string_view, kEventKinds> kNames = {
-      "pass begins",    "pass ends",    "visit begins",    "visit ends",   "attempt begins",
-      "candidate",      "attempt ends", "cavity replaced", "vertex moved", "vertex added",
-      "vertex removed", "undo",         "goal changes"};
+      "pass begins",    "pass ends",    "visit begins",    "visit ends",       "attempt begins",
+      "candidate",      "attempt ends", "cavity replaced", "vertex moved",     "vertex added",
+      "vertex removed", "undo",         "goal changes",    "parameter changes"};
   return kNames[static_cast<std::size_t>(kind)];
 }
 /// True if the mesh is another after the event.
@@ -55,12 +56,12 @@ constexpr bool has_time(EventKind kind) {
 /// One event. Which members mean something depends on the kind; the others are left as they were.
 struct TraceEvent {
   EventKind kind{};
-  std::uint32_t name = 0;              ///< of pass or operator: see TraceFile::name()
-  Algorithm algorithm{};               ///< of an attempt
-  Verdict verdict{};                   ///< likewise
-  std::uint32_t settings = 0;          ///< of the operator; likewise
-  std::uint32_t number = 0;            ///< round of a pass, level of an attempt
-  double seconds = 0;                  ///< since the trace began; not of edits and candidates
+  std::uint32_t name = 0;      ///< of pass or operator, or what changes: see TraceFile::name()
+  Algorithm algorithm{};       ///< of an attempt
+  Verdict verdict{};           ///< likewise
+  std::uint32_t settings = 0;  ///< of the operator; likewise
+  std::uint32_t number = 0;    ///< round of a pass, level of an attempt
+  double seconds = 0;          ///< since the trace began; not of edits and candidates
   std::vector<VertexHandle> vertices;  ///< of the target, of the visited tet, or of a vertex edit
   Quality quality = 0;                 ///< of the visited tet
   QualityIndicators now;               ///< after a pass
@@ -96,12 +97,14 @@ class EventEncoder {
   void attempt_ends(Verdict verdict, std::span<const Quality> before, std::span<const Quality> now,
                     std::uint64_t ticks);
   void standard_changes(const Standard& standard, std::uint64_t ticks);
+  /// "smoothing: cycles = 3"
+  void parameter_changes(std::string_view text, std::uint64_t ticks);
   /// The last edit of the journal.
   void edit(const TetMesh& mesh, const Journal& journal);
   void undo();
 
  private:
-  void put_kind(EventKind kind) { out_.put(static_cast<std::uint64_t>(kind)); }
+  void put_kind(EventKind kind);
   void put_time(std::uint64_t ticks);
   void put_name(std::string_view name);
   void put_vertices(std::span<const VertexHandle> vertices);

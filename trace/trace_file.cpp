@@ -34,6 +34,15 @@ constexpr std::uint32_t kDeepest = 255;
 }  // namespace
 
 TraceFile::TraceFile(const std::filesystem::path& file) : path_(file), frames_(file) {
+  read();
+}
+
+TraceFile::TraceFile(const std::string& name, std::string_view bytes)
+    : path_(name), frames_(formats::InputFile(name, bytes)) {
+  read();
+}
+
+void TraceFile::read() {
   try {
     read_beginning();
     TraceAudit audit(mesh_);
@@ -248,6 +257,10 @@ void TraceFile::index_event(const TraceEvent& event) {
     case EventKind::undo:
       undo();
       return;
+    case EventKind::parameter_changes:
+      if (pass_open_) throw ByteReader::Damage("a parameter changes inside a pass");
+      parameter_changes_.push_back({events_, event.name});
+      break;
     case EventKind::standard_changes:
       standard_ = event.standard;
       break;

@@ -89,6 +89,12 @@ struct TracedPass {
   std::uint32_t first_call = 0, last_call = 0;  ///< the calls from one up to before the other
 };
 
+/// A user has given an operator another value, which holds from the next pass on.
+struct ParameterChange {
+  std::uint64_t event = 0;
+  std::uint32_t text = 0;  ///< "smoothing: cycles = 3"; see TraceFile::name()
+};
+
 /// Holds the compressed events and an index of them in memory: about 100 bytes a call.
 class TraceFile {
  public:
@@ -99,6 +105,8 @@ class TraceFile {
   /// before the first event, or when an event makes no sense or no mesh: with byte, event and reason.
   /// Cost: linear; about 0.3 s for a million events.
   explicit TraceFile(const std::filesystem::path& file);
+  /// The same, of bytes that TraceRecorder::so_far() gave. @param name what errors call it
+  TraceFile(const std::string& name, std::string_view bytes);
 
   const std::filesystem::path& path() const { return path_; }
   const TraceHeader& header() const { return header_; }
@@ -115,7 +123,8 @@ class TraceFile {
   std::span<const TracedPass> passes() const { return passes_; }
   std::span<const Visit> visits() const { return visits_; }
   std::span<const Call> calls() const { return calls_; }
-  /// Name of a pass or an operator, or settings.
+  std::span<const ParameterChange> parameter_changes() const { return parameter_changes_; }
+  /// Name of a pass or an operator, settings, or a change of them.
   std::string_view name(std::uint32_t name) const { return names_[name]; }
   /// The innermost call that `event` belongs to, its first and last event included; kNoCall.
   std::uint32_t call_at(std::uint64_t event) const;
@@ -135,6 +144,7 @@ class TraceFile {
  private:
   friend class EventCursor;
 
+  void read();
   void read_beginning();
   void read_chunks(TraceAudit& audit);
   void read_end(const std::vector<std::byte>& frame);
@@ -162,6 +172,7 @@ class TraceFile {
   std::vector<TracedPass> passes_;
   std::vector<Visit> visits_;
   std::vector<Call> calls_;
+  std::vector<ParameterChange> parameter_changes_;
   Trials trials_;
   std::vector<std::uint32_t> open_;  // calls, while events are read
   struct Standing {

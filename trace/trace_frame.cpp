@@ -73,7 +73,17 @@ struct FrameWriter::Compressor {
 };
 
 FrameWriter::FrameWriter(const std::filesystem::path& file)
-    : file_(file, formats::PendingFile::Name::part), compressor_(std::make_unique<Compressor>()) {
+    : file_(std::in_place, file, formats::PendingFile::Name::part),
+      compressor_(std::make_unique<Compressor>()) {
+  begin();
+}
+
+FrameWriter::FrameWriter(std::string& memory)
+    : memory_(&memory), compressor_(std::make_unique<Compressor>()) {
+  begin();
+}
+
+void FrameWriter::begin() {
   std::array<std::byte, kTraceMagicSize> head{};
   std::memcpy(head.data(), kMagic.data(), kMagic.size());
   std::memcpy(head.data() + kMagic.size(), &kTraceVersion, sizeof kTraceVersion);
@@ -95,10 +105,12 @@ std::span<const std::byte> FrameWriter::pack(std::span<const std::byte> content)
 
 void FrameWriter::write(std::span<const std::byte> packed) {
   written_ += packed.size();
-  file_.write({reinterpret_cast<const char*>(packed.data()), packed.size()});
+  const std::string_view bytes(reinterpret_cast<const char*>(packed.data()), packed.size());
+  if (file_) return file_->write(bytes);
+  memory_->append(bytes);
 }
 
-FrameReader::FrameReader(const std::filesystem::path& file) : file_(file) {
+FrameReader::FrameReader(formats::InputFile file) : file_(std::move(file)) {
   if (file_.size() < kTraceMagicSize || std::memcmp(at(0), kMagic.data(), kMagic.size()) != 0) {
     throw Error(fmt::format("{}: is no trace of tetmend", file_.name()));
   }

@@ -5,7 +5,9 @@
 #include <cstddef>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "kernel/error.h"
@@ -19,32 +21,34 @@ inline constexpr std::size_t kTraceMagicSize = 12;
 inline constexpr std::uint32_t kTraceVersion = 2;
 
 /// Writes frames into FILE.part, each at once. So a crash costs only what was not handed over yet.
-/// finish() gives the file its name; without it, short of a crash, FILE.part vanishes.
+/// Without a commit of file(), short of a crash, FILE.part vanishes.
 class FrameWriter {
  public:
   /// @throws Error when the file cannot be written.
   explicit FrameWriter(const std::filesystem::path& file);
+  /// Appends to `memory`, which outlives this; there is no file then.
+  explicit FrameWriter(std::string& memory);
   ~FrameWriter();
   FrameWriter(const FrameWriter&) = delete;
   FrameWriter& operator=(const FrameWriter&) = delete;
 
-  /// Where the bytes are until finish().
-  const std::filesystem::path& part() const { return file_.temporary(); }
-  /// Bytes in the file.
+  bool is_in_memory() const { return memory_ != nullptr; }
+  /// Bytes so far.
   std::size_t written() const { return written_; }
   /// Compresses; the bytes of a frame as they are to be written, valid until the next call.
   std::span<const std::byte> pack(std::span<const std::byte> content);
   /// @throws Error when the disk is full.
   void write(std::span<const std::byte> packed);
-  /// @throws Error
-  void finish() { file_.commit(); }
-  /// What finish() gives its name.
-  formats::PendingFile& file() { return file_; }
+  /// What is to get its name when all is written. Precondition: !is_in_memory().
+  formats::PendingFile& file() { return *file_; }
 
  private:
   struct Compressor;
 
-  formats::PendingFile file_;
+  void begin();
+
+  std::optional<formats::PendingFile> file_;
+  std::string* memory_ = nullptr;
   std::size_t written_ = 0;
   std::unique_ptr<Compressor> compressor_;
   std::vector<std::byte> packed_;
@@ -55,7 +59,9 @@ class FrameReader {
  public:
   /// Reads the file, as it is.
   /// @throws Error when it cannot be read, is no trace, or is of a version that is not known here.
-  explicit FrameReader(const std::filesystem::path& file);
+  explicit FrameReader(const std::filesystem::path& file) : FrameReader(formats::InputFile(file)) {}
+  /// The same, of bytes that are there already.
+  explicit FrameReader(formats::InputFile file);
 
   /// Finds the next frame. False at the end of the file, or when it is cut off or damaged there:
   /// then damage() says so.

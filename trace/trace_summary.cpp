@@ -107,7 +107,12 @@ std::string format_summary(const TraceFile& file, const TraceSummary& summary) {
   fmt::format_to(out, "\n{:<24} {:>5} {:>9} {:>9} {:>8} {:>8}\n", "pass", "round", "calls",
                  "seconds", "q_worst", "n_bad");
   Standard standard = mesh.standard();
+  auto change = file.parameter_changes().begin();
   for (const TracedPass& pass : file.passes()) {
+    for (; change != file.parameter_changes().end() && change->event < pass.events.begin;
+         ++change) {
+      fmt::format_to(out, "changed while the run was paused: {}\n", file.name(change->text));
+    }
     if (pass.standard != standard) fmt::format_to(out, "goal: {}\n", describe(pass.standard));
     standard = pass.standard;
     fmt::format_to(out, "{:<24} {:>5} {:>9} {:>9.3f} {:>8.5f} {:>8}\n", file.name(pass.name),

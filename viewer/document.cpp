@@ -9,15 +9,14 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "explain/lesson_guide.h"
 #include "kernel/error.h"
-#include "kernel/formats/degenerate.h"
 #include "kernel/formats/mesh_io.h"
 #include "kernel/formats/tet_mesh_io.h"
 #include "kernel/grouped.h"
 #include "viewer/debugger/call_highlight.h"
 #include "viewer/debugger/recorded_allowance.h"
 #include "viewer/debugger/tets_drawing.h"
+#include "viewer/live/carried_data.h"
 #include "viewer/mesh/tet_values.h"
 
 namespace tetmend::viewer {
@@ -48,51 +47,22 @@ Message message_of(const LiveProgress& run, const std::string& schedule) {
   }
 }
 
-/// What a file holds that the mesh in the window does not: "2 arrays, 3 groups"; empty: nothing.
-std::string named_beside(const MeshData& data) {
-  std::vector<std::string> parts;
-  const auto add = [&](std::size_t count, std::string_view what) {
-    if (count > 0) parts.push_back(fmt::format("{} {}", count, what));
-  };
-  add(data.point_data.size() + data.tet_data.size() + data.triangle_data.size() +
-          data.edge_data.size(),
-      "arrays");
-  add(data.groups.size(), "groups");
-  add(data.other_elements.size(), "kinds of other elements");
-  add(data.mid_nodes.size(), "mid-side nodes as such");
-  add(data.deck.size(), "pieces of a deck");
-  return fmt::format("{}", fmt::join(parts, ", "));
-}
-
-/// Readers of meshes would speak of extensions.
-void refuse_what_is_no_mesh(const std::filesystem::path& file) {
-  std::error_code none;
-  if (std::filesystem::is_directory(file, none)) {
-    throw Error(fmt::format("{}: this is a folder", file.string()));
-  }
-  if (file.extension() != ".trace" || !std::filesystem::exists(file, none)) return;
-  throw Error(std::filesystem::is_empty(file, none)
-                  ? fmt::format("{}: the file is empty", file.string())
-                  : fmt::format("{}: this is no trace: it does not begin as one", file.string()));
-}
-
-/// What was put right in a mesh, or is wrong with it.
-std::vector<std::string> notes_of(const BuildReport& report) {
-  std::vector<std::string> notes;
-  if (report.mirrored) {
-    notes.emplace_back("the mesh was mirrored: two vertices were swapped in every tet");
-  }
-  const auto note = [&](std::size_t count, std::string_view what) {
-    if (count > 0) notes.push_back(fmt::format("{} {}", grouped(count), what));
-  };
-  note(report.reordered_tets, "tets listed the vertices the other way round: corrected");
-  note(report.inverted_tets, "tets have negative volume");
-  note(report.flat_tets, "tets have no volume");
-  note(report.unused_points, "points are in no tet");
-  return notes;
-}
-
 }  // namespace
+
+struct Document::Shown {
+  MeasuredMesh mesh;
+  std::string file, not_saved;
+  std::shared_ptr<const MeshData> data;
+  std::vector<std::string> notes;
+  std::unique_ptr<Debugger> debugger;
+  std::unique_ptr<ReferenceSurface> trace_reference;
+  Standard standard = Standard(Goal{});
+  ViewSettings view;
+  std::vector<VertexHandle> selected;
+  bool teaching = false;
+  bool is_changed = false;
+  bool debugs_live = false;
+};
 
 void Document::resize(const Canvas& size) {
   window = size;
@@ -109,55 +79,52 @@ void Document::remember(const std::filesystem::path& file) {
 }
 
 void Document::open(const std::filesystem::path& file) {
-  if (is_trace(file)) return open_trace(file);
-  if (file.extension() == ".json") return open_trace(explain::trace_of_lesson(file));
-  refuse_what_is_no_mesh(file);
-  MeshData data = read_mesh(file);
-  std::vector<std::string> notes = data.notes;
-  std::erase_if(notes, [](const auto& note) { return !formats::tells_of_dropped(note); });
-  const std::string beside = named_beside(data);
-  const bool holds_more =
-      !data.tet_parts.empty() || !data.mid_nodes.empty() || !data.other_elements.empty();
-  std::shared_ptr<const MeshData> held =
-      holds_more ? std::make_shared<const MeshData>(data) : nullptr;
-  BuildReport report;
-  TetMesh read = build_tet_mesh(file, std::move(data), MeshOrder::of_file, &report);
-  read.set_standard(standard_);
-  for (std::string& note : notes_of(report)) notes.push_back(std::move(note));
-  for (std::string& note : notes_of_parts(read)) notes.push_back(std::move(note));
-  MeasuredMesh mesh(std::move(read));
-  live.forget();
-  followed_ = LiveState::idle;
-  set_mesh(std::move(mesh), file.string());
-  is_changed_ = false;
-  remember(file);
-  not_saved_ = beside;
-  data_ = std::move(held);
-  notes_ = std::move(notes);
-  if (report.mirrored) message.text += "; " + notes_of(report).front();
+  show(read_file(file, standard_));
 }
 
-void Document::open_trace(const std::filesystem::path& file) {
-  auto debugger = std::make_unique<Debugger>(file);
+void Document::begin_to_open(const std::filesystem::path& file) {
+  if (!opens_in_background) return open(file);
+  if (opening_ != nullptr) throw Error("open: " + opening_->file().string() + " is being read");
+  opening_ = std::make_unique<Opening>(file, standard_);
+  constexpr double kNotWorthABar = 0.2;  // seconds
+  follow_opening(kNotWorthABar);
+}
+
+void Document::follow_opening(double seconds) {
+  if (opening_ == nullptr || !opening_->wait(seconds)) return;
+  const auto opening = std::move(opening_);
+  show(opening->take());
+}
+
+void Document::show(OpenedFile opened) {
   live.forget();
   followed_ = LiveState::idle;
+  if (opened.debugger != nullptr) {
+    const std::string damage = opened.debugger->file().damage();
+    file_ = opened.file.string();
+    show_debugger(std::move(opened.debugger), std::move(opened.mesh));
+    message = {
+        damage.empty()
+            ? fmt::format("{}: {} events, {} calls", opened.file.filename().string(),
+                          grouped(debugger_->end()), grouped(debugger_->file().calls().size()))
+            : damage,
+        !damage.empty()};
+  } else {
+    set_mesh(std::move(opened.mesh), opened.file.string());
+    not_saved_ = std::move(opened.beside);
+    data_ = std::move(opened.data);
+    notes_ = std::move(opened.notes);
+    if (!opened.remark.empty()) message.text += "; " + opened.remark;
+  }
   is_changed_ = false;
-  file_ = file.string();
-  show_debugger(std::move(debugger));
-  remember(file);
-  const std::string& damage = debugger_->file().damage();
-  message = {damage.empty()
-                 ? fmt::format("{}: {} events, {} calls", file.filename().string(),
-                               grouped(debugger_->end()), grouped(debugger_->file().calls().size()))
-                 : damage,
-             !damage.empty()};
+  remember(opened.file);
 }
 
 /// In place of what is shown, under its name.
-void Document::show_debugger(std::unique_ptr<Debugger> debugger) {
+void Document::show_debugger(std::unique_ptr<Debugger> debugger, MeasuredMesh mesh) {
   // At first: else nothing of a call inside is seen.
   const bool isolate = debugger_ == nullptr || view.scene.isolate;
-  set_mesh(MeasuredMesh(debugger->mesh()), std::string(file_));
+  set_mesh(std::move(mesh), std::string(file_));
   debugger_ = std::move(debugger);
   view.scene.isolate = isolate;
   teaching = debugger_->lesson().has_value();
@@ -170,11 +137,25 @@ void Document::show_debugger(std::unique_ptr<Debugger> debugger) {
 }
 
 void Document::save(const std::filesystem::path& file) {
-  write_mesh(file, MeshView(mesh_));
+  // What is written is what one goes on with.
+  if (trial_ != nullptr && aside_->debugger == nullptr && !live.is_active()) {
+    if (trial_->is_accepted()) {
+      keep_trial();
+    } else {
+      undo_trial();
+    }
+  }
+  const bool has_all = data_ != nullptr && debugger_ == nullptr;
+  std::string lost;
+  if (has_all) {
+    write_mesh(file, *data_);
+    for (const std::string& sentence : not_written(file, *data_)) lost += "; " + sentence;
+  } else {
+    write_mesh(file, MeshView(mesh_));
+    if (!not_saved_.empty()) lost = ", without " + not_saved_;
+  }
   if (trial_ == nullptr) is_changed_ = false;
-  const bool is_whole = not_saved_.empty();
-  message = {fmt::format("wrote {}{}", file.string(), is_whole ? "" : ", without " + not_saved_),
-             !is_whole};
+  message = {fmt::format("wrote {}{}", file.string(), lost), !lost.empty()};
 }
 
 void Document::set_mesh(TetMesh mesh, const std::string& name) {
@@ -184,6 +165,7 @@ void Document::set_mesh(TetMesh mesh, const std::string& name) {
 void Document::set_mesh(MeasuredMesh mesh, const std::string& name) {
   if (debugger_ != nullptr) view.scene.isolate = false;  // it is for the calls of a trace
   debugger_.reset();
+  debugs_live_ = false;
   trial_.reset();
   aside_.reset();
   trace_reference_.reset();
@@ -221,6 +203,7 @@ void Document::set_mesh(MeasuredMesh mesh, const std::string& name) {
 void Document::forget_derived() {
   trace_statistics_.forget();
   lists_.forget();
+  bad_places_.reset();
   layers_.clear();
   departure_.reset();
   draw_anew();
@@ -236,6 +219,7 @@ void Document::draw_anew() {
 /// After a change of these tets.
 void Document::follow_changes(std::span<const TetHandle> changed) {
   departure_.reset();
+  bad_places_.reset();
   for (const TetHandle t : changed) trace_statistics_.touch(t);
   lists_.update(mesh_, changed);
   const std::vector<TetHandle> deeper = other_layers();
@@ -302,20 +286,6 @@ Selection Document::target_of(std::uint32_t call) {
 
 // --- the sandbox ---------------------------------------------------------------------------------
 
-struct Document::Shown {
-  MeasuredMesh mesh;
-  std::string file, not_saved;
-  std::shared_ptr<const MeshData> data;
-  std::vector<std::string> notes;
-  std::unique_ptr<Debugger> debugger;
-  std::unique_ptr<ReferenceSurface> trace_reference;
-  Standard standard = Standard(Goal{});
-  ViewSettings view;
-  std::vector<VertexHandle> selected;
-  bool teaching = false;
-  bool is_changed = false;
-};
-
 Document::Document() = default;
 Document::~Document() = default;
 
@@ -337,6 +307,7 @@ std::unique_ptr<Document::Shown> Document::put_aside() {
   shown->view = view;
   shown->teaching = teaching;
   shown->is_changed = is_changed_;
+  shown->debugs_live = debugs_live_;
   return shown;
 }
 
@@ -351,6 +322,7 @@ void Document::show_again(Shown& shown) {
   trace_reference_ = std::move(shown.trace_reference);
   debugger_ = std::move(shown.debugger);
   if (debugger_ != nullptr) {
+    debugs_live_ = shown.debugs_live;
     shown_mesh_ = debugger_->mesh_number();
     show_trace();
   }
@@ -367,7 +339,9 @@ void Document::try_operator(const TrialRequest& request) {
   std::unique_ptr<Shown> aside = aside_ != nullptr ? std::move(aside_) : put_aside();
   const Camera camera = view.camera;
   try {
-    show_debugger(trial->take_debugger());
+    auto debugger = trial->take_debugger();
+    MeasuredMesh tried(debugger->mesh());
+    show_debugger(std::move(debugger), std::move(tried));
   } catch (...) {
     show_again(*aside);
     throw;
@@ -396,6 +370,12 @@ void Document::keep_trial() {
     throw Error("keep: a run is paused, and has a mesh of its own; stop it first");
   const std::string name = trial_->request().operator_name;
   TetMesh result = trial_->take_result();
+  std::shared_ptr<const MeshData> data;
+  if (aside_->data != nullptr) {
+    data = std::make_shared<const MeshData>(carried_data(*aside_->data, result));
+    MeshData copy = *data;
+    result = TetMesh::build(copy, {.sorted = false});
+  }
   result.set_standard(aside_->standard);
   result.collect_garbage();
   const auto aside = std::move(aside_);
@@ -404,6 +384,7 @@ void Document::keep_trial() {
   live.forget();
   followed_ = LiveState::idle;
   not_saved_ = std::move(aside->not_saved);
+  data_ = std::move(data);
   standard_ = aside->standard;
   view = aside->view;
   view.camera = camera;
@@ -477,21 +458,61 @@ void Document::run_live(LiveRun::From from) {
   followed_ = LiveState::idle;
   followed_call_ = 0;
   before_ = from == LiveRun::From::file ? live.input()->statistics : now;
+  camera_before_run_ = camera_of_run_ = view.camera;
+}
+
+void Document::debug_live() {
+  const std::string calls = live.last_calls();
+  if (calls.empty()) throw Error("live_debug: the run has made no call yet");
+  auto debugger = std::make_unique<Debugger>("the run", calls);
+  debugger->seek(debugger->end());
+  MeasuredMesh mesh(debugger->mesh());
+  std::string beside = not_saved_;
+  const Standard standard = standard_;
+  show_debugger(std::move(debugger), std::move(mesh));
+  standard_ = standard;
+  not_saved_ = std::move(beside);
+  is_changed_ = live.is_active();
+  debugs_live_ = true;
+  message = {fmt::format("the last {} calls of the run", grouped(debugger_->file().calls().size())),
+             false};
+}
+
+/// False: the pause is shown as the mesh alone.
+bool Document::show_pause(const LiveProgress& run) {
+  constexpr std::size_t kMost = 300000;  // tets: about a second
+  if (!debugs_pauses || run.state != LiveState::paused || run.attempts == 0 ||
+      mesh_.tet_count() > kMost) {
+    return false;
+  }
+  try {
+    debug_live();
+  } catch (const Error&) {
+    return false;  // it has no memory for that, or goes on already
+  }
+  return true;
 }
 
 void Document::follow_live() {
   const LiveState now = live.state();  // before the last snapshot is taken, lest it be missed
   auto snapshot = live.take_snapshot();
-  if (snapshot != nullptr) {
+  const LiveProgress run = live.progress();
+  if (snapshot != nullptr && !show_pause(run)) {
     std::string beside = std::move(not_saved_);
     set_mesh(std::move(*snapshot), file_);
     is_changed_ = true;
     not_saved_ = std::move(beside);
-    mark_live_call(live.progress());
+    mark_live_call(run);
   }
   if (now == followed_ && (snapshot == nullptr || now != LiveState::paused)) return;
+  const bool is_over = now == LiveState::finished || now == LiveState::stopped;
+  // Back from the last hole, unless the user has gone elsewhere.
+  if (is_over && camera_before_run_ && view.camera == camera_of_run_) {
+    view.camera = *camera_before_run_;
+  }
+  if (now == LiveState::paused) camera_of_run_ = view.camera;
   followed_ = now;
-  message = message_of(live.progress(), live.schedule_name());
+  message = message_of(run, live.schedule_name());
 }
 
 /// Shows where the last call was, and brings the camera there, while the run can be watched.
@@ -509,6 +530,7 @@ void Document::mark_live_call(const LiveProgress& run) {
   double radius = 0.02 * ball_.radius;  // of a vertex
   for (const Point& p : call->target) radius = std::max(radius, (p - call->place).norm());
   view.camera.fit({to_glm(call->place), kSurroundings * radius}, canvas);
+  camera_of_run_ = view.camera;
 }
 
 bool Document::awaits_live() const {
@@ -548,6 +570,15 @@ const Histogram& Document::histogram() {
 
 const std::vector<TetHandle>& Document::worst() {
   return lists_.worst(mesh_, view.scene.measure);
+}
+
+const std::vector<BadPlace>& Document::bad_places() {
+  const double below = view.scene.bad_below;
+  if (!bad_places_ || places_below_ != below) {
+    bad_places_ = viewer::bad_places(mesh_, below, kPlacesListed);
+    places_below_ = below;
+  }
+  return *bad_places_;
 }
 
 std::optional<std::size_t> Document::place_among_worst() {

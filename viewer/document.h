@@ -16,6 +16,7 @@
 #include "viewer/debugger/debugger.h"
 #include "viewer/live/live_run.h"
 #include "viewer/live/trial.h"
+#include "viewer/mesh/bad_places.h"
 #include "viewer/mesh/measured_mesh.h"
 #include "viewer/mesh/reference_surface.h"
 #include "viewer/mesh/scene.h"
@@ -23,6 +24,7 @@
 #include "viewer/mesh/tet_lists.h"
 #include "viewer/mesh/view_history.h"
 #include "viewer/mesh/view_settings.h"
+#include "viewer/opened_file.h"
 
 namespace tetmend::viewer {
 
@@ -96,6 +98,18 @@ class Document {
   /// mesh. The view stays if the new mesh is about as large and in the same place as the old one;
   /// otherwise the camera goes home. @throws Error, and nothing changes.
   void open(const std::filesystem::path& file);
+  /// The same, of a file that is read.
+  void show(OpenedFile opened);
+  /// A window reads in the background and shows a bar meanwhile; others read in open() itself.
+  bool opens_in_background = false;
+  /// open() as this asks. While a file is read no other can be.
+  void begin_to_open(const std::filesystem::path& file);
+  /// The file that is being read, or null.
+  const Opening* opening() const { return opening_.get(); }
+  /// Shows it once it is read, after so many seconds at most. @throws Error as open()
+  void follow_opening(double seconds);
+  /// By which read_file() is to judge.
+  const Standard& standard() const { return standard_; }
   /// Takes over a mesh that is called `name`. A trace that is open is closed.
   void set_mesh(TetMesh mesh, const std::string& name);
   void set_mesh(MeasuredMesh mesh, const std::string& name);
@@ -142,6 +156,14 @@ class Document {
   /// Begins a run over the mesh. Its statistics become those of the state before.
   /// @throws Error as LiveRun::start().
   void run_live(LiveRun::From from);
+  /// Shows the last calls of a run that is paused, or over, in the debugger, at their end. Once the
+  /// run goes on, its mesh is shown again. Cost: plays them three times.
+  /// @throws Error as LiveRun::last_calls(), and where there was no call.
+  void debug_live();
+  /// The trace that is open is that of debug_live().
+  bool debugs_live() const { return debugger_ != nullptr && debugs_live_; }
+  /// A pause shows the calls by itself, unless the mesh is so large that each would take seconds.
+  bool debugs_pauses = false;
   /// Shows the latest mesh of the run, and says so when it has paused or ended. To be called now
   /// and then.
   void follow_live();
@@ -233,6 +255,12 @@ class Document {
   void toggle_isolation();
   void forget_camera_before_alone() { camera_before_alone_.reset(); }
   std::optional<std::size_t> place_among_worst();  ///< of the selected tet
+  /// Where bad tets are many, the places with most of them first.
+  static constexpr std::size_t kPlacesListed = 30;
+  const std::vector<BadPlace>& bad_places();
+  /// Shows entry i of bad_places() from near by, and selects its worst tet. Precondition: there is
+  /// such an entry.
+  void fly_to_place(std::size_t i);
 
   const Scene& scene();
   /// What scene() gave last shows the tets of a call only.
@@ -247,14 +275,14 @@ class Document {
   struct Shown;
   std::unique_ptr<Shown> put_aside();
   void show_again(Shown& shown);
-  void show_debugger(std::unique_ptr<Debugger> debugger);
+  void show_debugger(std::unique_ptr<Debugger> debugger, MeasuredMesh mesh);
   void remember(const std::filesystem::path& file);
-  void open_trace(const std::filesystem::path& file);
   void forget_derived();
   void follow_changes(std::span<const TetHandle> changed);
   std::vector<TetHandle> other_layers();
   std::optional<Ball> call_in_view();
   void mark_live_call(const LiveProgress& run);
+  bool show_pause(const LiveProgress& run);
   Selection target_of(std::uint32_t call);
   Selection tet_visited();
   void mark_call();
@@ -270,6 +298,7 @@ class Document {
   void draw_anew();
   void colour_by(const SceneSettings& settings, bool anew, SceneInput& input);
 
+  std::unique_ptr<Opening> opening_;
   TetMesh mesh_;
   Standard standard_ = Standard(Goal{});
   std::string file_;
@@ -295,9 +324,12 @@ class Document {
   std::optional<Place> picked_through_;
   LiveState followed_ = LiveState::idle;  // what the user was told
   std::size_t followed_call_ = 0;         // of a run: whose place is marked
+  bool debugs_live_ = false;
+  std::optional<Camera> camera_before_run_;
+  Camera camera_of_run_;  // as the last call or pause of it has put it
 
   std::unique_ptr<Shown> aside_;  // of the trial
-  std::unique_ptr<Trial> trial_;  // outlives its debugger
+  std::unique_ptr<Trial> trial_;
   std::unique_ptr<Debugger> debugger_;
   std::size_t shown_mesh_ = 0;          // see Debugger::mesh_number()
   std::uint32_t shown_root_ = kNoCall;  // outermost call that the camera went to
@@ -311,6 +343,8 @@ class Document {
 
   mutable StatisticsCache trace_statistics_;  // of the mesh, while a trace is open
   TetLists lists_;
+  std::optional<std::vector<BadPlace>> bad_places_;  // of the mesh as it is, and this bound:
+  double places_below_ = 0;
   std::vector<std::uint32_t> layers_;  // empty until something is peeled
   /// A scene and what it was made of.
   struct Drawing {

@@ -125,6 +125,12 @@ void Document::fly_to_worst(std::size_t i) {
   fit();
 }
 
+void Document::fly_to_place(std::size_t i) {
+  const BadPlace place = bad_places()[i];
+  select(place.worst);
+  view.camera.fit(place.ball, canvas);
+}
+
 void Document::toggle_isolation() {
   const bool is_own = selection_ != target_ && !std::holds_alternative<std::monostate>(selection_);
   const bool is_picked = debugger_ != nullptr && is_own && !is_alone_;
@@ -326,7 +332,7 @@ const std::vector<LegendEntry>& Document::legend() {
     const auto from = std::min<std::uint32_t>(ends[0].index(), ends[1].index());
     const auto to = std::max<std::uint32_t>(ends[0].index(), ends[1].index());
     legend_.push_back(
-        {kSupportingEdgeColour, fmt::format("supporting edge {} {} and its faces", from, to)});
+        {kSupportingEdgeColour, fmt::format("supporting edge {} {}", from, to)});
     legend_.push_back({kSkirtColour, "skirt polygon"});
   }
   if (std::holds_alternative<TetHandle>(selection_)) {

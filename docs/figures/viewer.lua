@@ -51,6 +51,7 @@ live_run()
 for _ = 1, 2 do live_step_pass() live_wait() end
 live_step()
 live_wait()
+live_debug()
 screenshot("docs/figures/viewer-live.png")
 live_stop()
 

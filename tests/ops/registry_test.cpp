@@ -181,3 +181,21 @@ TEST_CASE("values are defaults until they are set, and the last setting of a nam
   CHECK(set.real("share") == 0.5);
   CHECK_FALSE(set.flag("loud"));
 }
+
+TEST_CASE("a parameter that is held has its value whatever an operator is asked for with") {
+  Registry registry = Registry::builtin();
+  registry.hold("recursive_shell_transformation", "max_level", 3);
+  const auto settings = [&](const ParameterSettings& asked) {
+    return registry.make("recursive_shell_transformation", asked)->settings();
+  };
+  CHECK(contains(settings({}), "max_level = 3"));
+  CHECK(contains(settings({{"max_level", 1}}), "max_level = 3"));
+  registry.hold("recursive_shell_transformation", "max_level", 2);
+  CHECK(contains(settings({{"max_level", 1}}), "max_level = 2"));
+  CHECK(registry.make("smoothing")->settings() ==
+        Registry::builtin().make("smoothing")->settings());
+  CHECK_THROWS_AS(registry.hold("recursive_shell_transformation", "max_level", -1), Error);
+  CHECK_THROWS_AS(registry.hold("recursive_shell_transformation", "max_levle", 1), Error);
+  CHECK_THROWS_AS(registry.hold("nope", "max_level", 1), Error);
+  CHECK(contains(settings({}), "max_level = 2"));  // what is refused changes nothing
+}

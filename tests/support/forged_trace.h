@@ -29,7 +29,7 @@ inline void write_frames(const std::filesystem::path& file,
                          const std::vector<FrameContent>& frames) {
   FrameWriter writer(file);
   for (const FrameContent& frame : frames) writer.write(writer.pack(frame));
-  writer.finish();
+  writer.file().commit();
 }
 
 /// The events of one chunk, byte by byte.

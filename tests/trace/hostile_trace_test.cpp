@@ -78,7 +78,7 @@ struct Hostile {
 };
 
 constexpr auto kReplace = EventKind::replace_cavity;
-constexpr auto kAtSurface = static_cast<EventKind>(kEventKinds);
+constexpr auto kAtSurface = static_cast<EventKind>(13);
 
 const std::vector<Hostile> kHostileEvents = {
     {"a tet of vertex 2147483392, which is none",
@@ -192,7 +192,7 @@ const std::vector<Hostile> kHostileEvents = {
      [](auto& e) { e.kind(EventKind::visit_ends).put(std::numeric_limits<std::uint64_t>::max()); }},
     {"its goal or standard is none",
      [](auto& e) { e.kind(EventKind::standard_changes).put(0).point(-1, 0, 0).put(0); }},
-    {"14 is no kind of event", [](auto& e) { e.kind(static_cast<EventKind>(14)); }},
+    {"15 is no kind of event", [](auto& e) { e.kind(static_cast<EventKind>(15)); }},
     {"a cavity with more or fewer labels than tets",
      [](auto& e) {
        e.kind(kAtSurface).put(0).put(1).put(1).steps({0, 0, 1, 2, 3});

@@ -2,14 +2,18 @@
 #include "trace/recorder.h"
 
 #include <algorithm>
+#include <array>
+#include <string>
 
 #include <doctest/doctest.h>
 
 #include "tests/kernel/formats/fixtures.h"
+#include "tests/support/text.h"
 #include "tests/support/threads.h"
 #include "tests/support/traced_run.h"
 #include "trace/replay.h"
 #include "trace/trace_file.h"
+#include "trace/trace_summary.h"
 
 using namespace tetmend;
 using namespace tetmend::test;
@@ -202,4 +206,47 @@ TEST_CASE("a trace that cannot be written is an error with the reason") {
   const TetMesh mesh = asset_mesh("sheet.mesh");
   CHECK_THROWS_WITH_AS(TraceRecorder(folder / "no" / "trace", mesh, {}),
                        doctest::Contains("No such file or directory"), Error);
+}
+
+TEST_CASE("a trace in memory is looked at in the middle of an attempt, and goes on") {
+  const TetMesh mesh(shell_mesh({.degree = 5}));
+  std::string memory;
+  TraceRecorder recorder(memory, mesh, {});
+  const std::array edge = {VertexHandle(0), VertexHandle(1)};
+  recorder.pass_begins("reconnect", 1);
+  recorder.attempt_begins({"edge_removal", edge, 0, "max_degree = 7"});
+  recorder.candidate_found();
+  const TraceFile half("half", recorder.so_far());
+  CHECK(half.damage() == "");
+  CHECK(half.event_count() == 3);
+  REQUIRE(half.calls().size() == 1);
+  CHECK_FALSE(half.calls()[0].verdict);
+  CHECK(half.calls()[0].candidate_found);
+  recorder.attempt_ends(Verdict::no_improvement, {}, {});
+  recorder.pass_ends({});
+  const std::string looked_at = recorder.so_far();
+  recorder.finish();
+  CHECK(memory == looked_at);
+  const TraceFile whole("whole", memory);
+  CHECK(whole.event_count() == 5);
+  CHECK(whole.calls()[0].verdict == Verdict::no_improvement);
+  CHECK(Replay(whole).mesh().fingerprint() == SlotMesh(mesh).fingerprint());
+}
+
+TEST_CASE("a trace says which parameters a user has changed, between which passes") {
+  const TetMesh mesh(shell_mesh({.degree = 5}));
+  std::string memory;
+  TraceRecorder recorder(memory, mesh, {});
+  recorder.pass_begins("smooth", 1);
+  recorder.pass_ends({});
+  recorder.parameter_changed("smoothing: rings = 2");
+  recorder.pass_begins("smooth", 2);
+  recorder.pass_ends({});
+  recorder.finish();
+  const TraceFile file("changed", memory);
+  REQUIRE(file.parameter_changes().size() == 1);
+  CHECK(file.parameter_changes()[0].event == 2);
+  CHECK(file.name(file.parameter_changes()[0].text) == "smoothing: rings = 2");
+  CHECK(contains(format_summary(file, summarize(file)),
+                 "changed while the run was paused: smoothing: rings = 2\nsmooth"));
 }

@@ -41,7 +41,7 @@ TEST_CASE("a file that cannot be opened leaves everything as it was") {
   CHECK(s.document.file() == "test.mesh");
 }
 
-TEST_CASE("saving says what of the file is not in the window") {
+TEST_CASE("saving keeps what the file holds beside its mesh, and says what a format cannot hold") {
   const test::TempFolder folder;
   MeshData mesh = test::kuhn_cube(2, 0.1, 1);
   write_mesh(folder / "plain.vtu", mesh);
@@ -50,7 +50,11 @@ TEST_CASE("saving says what of the file is not in the window") {
   TestSession s(test::one_tet());
   s.document.open(folder / "a.vtu");
   s.document.save(folder / "b.vtu");
-  CHECK(s.document.message.text.ends_with(", without 1 arrays"));
+  CHECK_FALSE(s.document.message.is_error);
+  REQUIRE(read_mesh(folder / "b.vtu").point_data.size() == 1);
+  CHECK(read_mesh(folder / "b.vtu").point_data[0].name == "heat");
+  s.document.save(folder / "b.mesh");
+  CHECK(s.document.message.text.find("; ") != std::string::npos);
   CHECK(s.document.message.is_error);
   s.document.open(folder / "plain.vtu");
   s.document.save(folder / "b.vtu");
@@ -160,4 +164,29 @@ TEST_CASE("what has given vertices is found, and what the mesh has not is not") 
   const std::array gone = {VertexHandle(999)};
   CHECK(document.selection_of(gone) == viewer::Selection());
   CHECK(document.selection_of({}) == viewer::Selection());
+}
+
+TEST_CASE("a window reads a file in the background, and what cannot be read is told") {
+  TestSession s(test::one_tet());
+  const test::TempFolder folder;
+  Document& document = s.document;
+  document.opens_in_background = true;
+  write_mesh(folder / "large.meshb", test::kuhn_cube(24, 0.3, 1));
+  document.begin_to_open(folder / "large.meshb");
+  if (document.opening() != nullptr) {  // it takes longer than nobody minds
+    CHECK(document.opening()->file() == folder / "large.meshb");
+    CHECK_FALSE(document.opening()->stage().empty());
+    CHECK(document.mesh().tet_count() == 1);
+    CHECK_THROWS_AS(document.begin_to_open(folder / "large.meshb"), Error);
+    document.follow_opening(600);
+  }
+  CHECK(document.opening() == nullptr);
+  CHECK(document.mesh().tet_count() == 6 * 24 * 24 * 24);
+  const auto open_missing = [&] {
+    document.begin_to_open(folder / "missing.mesh");
+    document.follow_opening(600);
+  };
+  CHECK_THROWS_WITH_AS(open_missing(), doctest::Contains("missing.mesh"), Error);
+  CHECK(document.mesh().tet_count() == 6 * 24 * 24 * 24);
+  CHECK(document.opening() == nullptr);
 }

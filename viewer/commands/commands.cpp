@@ -71,9 +71,9 @@ bool guarded(Document& document, const std::function<void()>& work) {
 namespace {
 
 /// Leaves the mesh that is shown for something else, or for good.
-bool leaves_mesh(const Command& command, const json& arguments) {
-  return command.name == "quit" || command.name == "reload" ||
-         (command.name == "open" && !arguments.empty());
+bool leaves_mesh(const Command& command, const json& arguments, const LiveRun& live) {
+  return command.name == "quit" || (command.name == "live_debug" && !live.is_active()) ||
+         command.name == "reload" || (command.name == "open" && !arguments.empty());
 }
 
 }  // namespace
@@ -87,7 +87,7 @@ void run_waiting(Session& session) {
 }
 
 void run_from_window(const Command& command, Session& session, const json& arguments) {
-  if (leaves_mesh(command, arguments) && session.document.has_unsaved()) {
+  if (leaves_mesh(command, arguments, session.document.live) && session.document.has_unsaved()) {
     const std::string file = arguments.empty() ? "" : arguments[0].get<std::string>();
     session.document.waiting = WaitingCommand{std::string(command.name), file};
     return;

@@ -18,7 +18,7 @@ json open(Session& s, const json& a) {
   if (a.empty()) {
     s.document.question = FileQuestion::open;
   } else {
-    s.document.open(Arguments("open", a).text(0));
+    s.document.begin_to_open(Arguments("open", a).text(0));
   }
   return nullptr;
 }
@@ -40,7 +40,7 @@ json compare(Session& s, const json& a) {
 
 json reload(Session& s, const json&) {
   need_mesh(s.document);
-  s.document.open(std::string(s.document.file()));
+  s.document.begin_to_open(std::string(s.document.file()));
   return nullptr;
 }
 

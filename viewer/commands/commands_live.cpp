@@ -82,15 +82,24 @@ json plugin_operators(Session& s, const json&) {
   return s.document.live.plugin_operators();
 }
 
-/// Recorded runs only: to record all would cost each of them time and a file.
+/// Of a recorded run that is over the whole trace, else the last calls.
 json debug(Session& s, const json&) {
-  const LiveRun& live = s.document.live;
-  if (live.is_active()) throw Error("live_debug: the run is still at work");
-  const std::string trace = live.progress().trace;
+  const std::string trace = s.document.live.progress().trace;
   if (trace.empty()) {
-    throw Error("live_debug: no recorded run is over; choose 'record' and run again");
+    s.document.debug_live();
+  } else {
+    s.document.open(trace);
   }
-  s.document.open(trace);
+  return nullptr;
+}
+
+json hold_parameter(Session& s, const json& a) {
+  const Arguments arguments("live_hold", a);
+  const double value =
+      arguments.has(2) && a[2].is_boolean() ? (a[2].get<bool>() ? 1 : 0) : arguments.number(2);
+  const ParameterHold change{arguments.text(0), arguments.text(1), value};
+  s.document.live.hold_parameter(change);
+  s.document.message = {change.text() + ", from the next pass on", false};
   return nullptr;
 }
 
@@ -145,8 +154,15 @@ constexpr std::array kLiveCommands = {
             "Let the run go on to the next call, accepted or not", &ask<Demand::to_next_call>},
     Command{"live_step_pass", "F10", kRun, "live_step_pass()",
             "Let the run go on to the end of the pass", &ask<Demand::to_next_pass>},
-    Command{"live_debug", "F11", kRun, "live_debug()",
-            "Open the trace of the last run, if it was recorded, in the debugger", &debug},
+    Command{
+        "live_hold", "", "", "live_hold(\"OPERATOR\", \"PARAMETER\", VALUE)",
+        "In a paused run: from the next pass on an operator has that value; an event of its trace",
+        &hold_parameter},
+    Command{
+        "live_debug", "F11", kRun, "live_debug()",
+        "Show the last calls of a run that is paused or over in the debugger, or its trace, if it "
+        "was recorded",
+        &debug},
     Command{"live_stop", "F12", kRun, "live_stop()", "End the run; the mesh stays as it is then",
             &ask<Demand::stop>},
     Command{"live_wait", "", "", "live_wait(SECONDS)",

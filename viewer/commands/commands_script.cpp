@@ -169,6 +169,7 @@ json state_of(Document& document) {
           {"triangles", scene.surface.size() / 3},
           {"note", scene.note},
           {"run", to_string(document.live.state())},
+          {"held_parameters", document.live.progress().held_parameters},
           {"title", document.title()},
           {"unsaved", document.has_unsaved()},
           {"recent", document.recent},

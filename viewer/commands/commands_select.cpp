@@ -120,6 +120,27 @@ json deselect(Session& s, const json&) {
   return nullptr;
 }
 
+/// Of each place its bad tets, all its tets and the worst.
+json bad_places(Session& s, const json& a) {
+  need_mesh(s.document);
+  const auto& places = s.document.bad_places();
+  if (!a.empty()) {
+    const std::uint32_t n = Arguments("bad_places", a).index(0, places.size() + 1);
+    if (n == 0) throw Error("bad_places: the first place is number 1");
+    s.document.fly_to_place(n - 1);
+  }
+  json list = json::array();
+  for (const BadPlace& place : places) {
+    const auto& c = place.ball.centre;
+    list.push_back({{"bad", place.bad},
+                    {"tets", place.tets},
+                    {"worst", place.worst.index()},
+                    {"q_worst", place.q_worst},
+                    {"centre", {c.x, c.y, c.z}}});
+  }
+  return list;
+}
+
 json worst(Session& s, const json& a) {
   need_mesh(s.document);
   const std::uint32_t n =
@@ -160,6 +181,8 @@ constexpr std::array kSelectCommands = {
     Command{"worst", "W", kSelect, "worst(N)",
             "Show the N-th worst tet alone, from where it is seen best; the result is its number",
             &worst},
+    Command{"bad_places", "", "", "bad_places(N)",
+            "Where bad tets are many: a table of counts by place; goes to the N-th", &bad_places},
     Command{"next_worst", "N", kSelect, "next_worst()", "Go to the next worst tet", &step_worst<1>},
     Command{"previous_worst", "Shift+N", kSelect, "previous_worst()", "Go to the one before",
             &step_worst<-1>},

@@ -132,16 +132,17 @@ json deepest(Session& s, const json&) {
   return call;
 }
 
-/// Of the trace, or of live runs where there is none.
+/// Of the trace, or of live runs where there is none, or only their last calls.
 std::vector<Breakpoint>& breakpoints_of(Document& document) {
-  if (document.debugger() != nullptr) return document.debugger()->breakpoints;
+  if (document.debugger() != nullptr && !document.debugs_live())
+    return document.debugger()->breakpoints;
   return document.live.breakpoints;
 }
 
 json breakpoint(Session& s, const json& a) {
   const Condition condition = parse_condition(Arguments("breakpoint", a).text(0));
   const auto& terms = condition.terms;
-  if (s.document.debugger() == nullptr &&
+  if (&breakpoints_of(s.document) == &s.document.live.breakpoints &&
       std::any_of(terms.begin(), terms.end(), is_about_record)) {
     throw Error(fmt::format("'{}' asks what became of a call: only recorded runs know",
                             to_text(condition)));

@@ -122,7 +122,8 @@ bool is_run_possible(std::string_view name, Document& document) {
   if (name == "live_run" || name == "live_start")
     return document.has_mesh() && !document.live.is_active();
   if (name == "live_debug") {
-    return !document.live.is_active() && !document.live.progress().trace.empty();
+    const LiveState state = document.live.state();
+    return state != LiveState::idle && state != LiveState::running && state != LiveState::stopping;
   }
   if (name.starts_with("live_step")) return document.has_mesh();
   return document.live.is_active();

@@ -119,6 +119,10 @@ json trace_state_of(Document& document) {
       {"bookmarks", bookmarks},
       {"bad", sample.n_bad},
       {"q_worst", sample.q_worst}};
+  if (debugger.found()) {
+    result["found"] = {{"condition", to_text(debugger.found()->condition)},
+                       {"calls", debugger.found()->calls.size()}};
+  }
   if (const auto visit = debugger.visit()) {
     const Visit& made = debugger.file().visits()[*visit];
     json tet = json::array();

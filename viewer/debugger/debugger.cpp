@@ -10,11 +10,15 @@
 
 namespace tetmend::viewer {
 
-Debugger::Debugger(const std::filesystem::path& file)
-    : file_(file),
-      replay_(file_),
-      timeline_(make_timeline(file_, replay_)),
-      lesson_(lesson_of(file, file_.event_count())) {}
+Debugger::Debugger(TraceFile file)
+    : file_(std::move(file)), replay_(file_), timeline_(make_timeline(file_, replay_)) {}
+
+Debugger::Debugger(const std::filesystem::path& file) : Debugger(TraceFile(file)) {
+  lesson_ = lesson_of(file, file_.event_count());
+}
+
+Debugger::Debugger(const std::string& name, std::string_view bytes)
+    : Debugger(TraceFile(name, bytes)) {}
 
 void Debugger::seek(std::uint64_t position) {
   const std::uint32_t before = call();

@@ -43,6 +43,8 @@ class Debugger {
  public:
   /// @throws Error as TraceFile does, or for a damaged lesson. Cost: plays the trace twice.
   explicit Debugger(const std::filesystem::path& file);
+  /// Of bytes that are in no file, see TraceRecorder::so_far(). @param name what errors call it
+  Debugger(const std::string& name, std::string_view bytes);
 
   const TraceFile& file() const { return file_; }
   std::uint64_t position() const { return replay_.position(); }
@@ -125,6 +127,7 @@ class Debugger {
   void fold(std::uint32_t call) { list_.toggle(call); }
 
  private:
+  explicit Debugger(TraceFile file);
   std::optional<std::uint64_t> nearest_breakpoint(Direction direction, Condition* which);
   ConditionSource source() { return {file_, replay_}; }
 

@@ -4,6 +4,8 @@
 #include <new>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "face/mesh_access.h"
 #include "kernel/error.h"
 
@@ -29,6 +31,10 @@ std::string trouble_of(const Step& step) {
 }
 
 }  // namespace
+
+std::string ParameterHold::text() const {
+  return fmt::format("{}: {} = {}", operator_name, parameter, value);
+}
 
 LiveJob::LiveJob(MeshData mesh, const Standard& shown, LivePlan plan)
     : data_(std::move(mesh)),
@@ -69,6 +75,12 @@ void LiveJob::set_breakpoints(std::vector<Condition> conditions) {
   has_new_breakpoints_ = true;
 }
 
+void LiveJob::hold_parameter(ParameterHold change) {
+  const std::lock_guard lock(lock_);
+  shown_.held_parameters.push_back(change.text());
+  parameters_.push_back(std::move(change));
+}
+
 LiveState LiveJob::state_now() const {
   if (is_over_) return shown_.state;
   if (demand_ == Demand::stop) return LiveState::stopping;
@@ -105,10 +117,19 @@ std::unique_ptr<MeasuredMesh> LiveJob::take_snapshot() {
   return std::move(snapshot_);
 }
 
+std::string LiveJob::last_calls() const {
+  const std::lock_guard lock(lock_);  // a thread that is held waits for it before it goes on
+  if (!is_over_ && state_now() != LiveState::paused) {
+    throw Error("the run is still at work: pause it first");
+  }
+  return memory_.look();
+}
+
 // ---- The thread ---------------------------------------------------------------------------------
 
 void LiveJob::work() {
   std::string trouble = trouble_of([&] { run(); });
+  run_ = nullptr;
   mesh_ = nullptr;
   const auto then = [&](const auto& step) {
     const std::string more = trouble_of(step);
@@ -155,9 +176,11 @@ void LiveJob::run() {
   data_ = MeshAccess::take(mesh);
 }
 
-TraceSink* LiveJob::follow(const TetMesh& mesh) {
-  mesh_ = &mesh;
-  const QualityIndicators before = quality_indicators(mesh);
+TraceSink* LiveJob::follow(Run& run) {
+  run_ = &run;
+  mesh_ = &run.mesh();
+  const QualityIndicators before = quality_indicators(*mesh_);
+  parameters_held_ = 0;
   attempts_ = accepted_ = 0;
   calls_.clear();
   last_.reset();
@@ -169,22 +192,39 @@ TraceSink* LiveJob::follow(const TetMesh& mesh) {
   }
   publish();
   recorder_.reset();
-  begin_trace();
+  begin_traces();
   breakpoints_.set(plan_.breakpoints);
   last_snapshot_ = Clock::now();
   come_to(Event::start);
   return this;
 }
 
-void LiveJob::begin_trace() {
-  if (plan_.trace.empty()) return;
+void LiveJob::begin_traces() {
   TraceHeader header;
   header.program = "tetmend-view";
   header.input = plan_.input.string();
   header.schedule = plan_.schedule.name();
   header.schedule_text = plan_.schedule.text();
   header.settings = plan_.options.set;
+  memory_.begin(*mesh_, header);
+  if (plan_.trace.empty()) return;
   recorder_ = std::make_unique<TraceRecorder>(plan_.trace, *mesh_, std::move(header));
+}
+
+/// Both traces.
+void LiveJob::tell(const auto& event) {
+  event(memory_);
+  if (recorder_) event(*recorder_);
+}
+
+/// Where a pass begins.
+void LiveJob::take_parameters() {
+  const std::lock_guard lock(lock_);
+  for (; parameters_held_ < parameters_.size(); ++parameters_held_) {
+    const ParameterHold& change = parameters_[parameters_held_];
+    run_->hold_parameter(change.operator_name, change.parameter, change.value);
+    tell([&](auto& sink) { sink.parameter_changed(change.text()); });
+  }
 }
 
 void LiveJob::take_breakpoints() {
@@ -275,7 +315,8 @@ void LiveJob::publish() {
 // ---- What the run tells -------------------------------------------------------------------------
 
 void LiveJob::pass_begins(std::string_view name, unsigned round) {
-  if (recorder_) recorder_->pass_begins(name, round);
+  take_parameters();
+  tell([&](auto& sink) { sink.pass_begins(name, round); });
   pass_ = LivePass{.name = std::string(name), .round = round, .after = {}};
   pass_start_ = Clock::now();
   const std::lock_guard lock(lock_);
@@ -286,25 +327,25 @@ void LiveJob::pass_begins(std::string_view name, unsigned round) {
 }
 
 void LiveJob::pass_ends(const QualityIndicators& now) {
-  if (recorder_) recorder_->pass_ends(now);
+  tell([&](auto& sink) { sink.pass_ends(now); });
   show_pass(now);
 }
 
 void LiveJob::visit_begins(const TetVertices& tet, Quality quality) {
-  if (recorder_) recorder_->visit_begins(tet, quality);
+  tell([&](auto& sink) { sink.visit_begins(tet, quality); });
   breakpoints_.visit_begins(quality);
 }
 
 void LiveJob::visit_ends() {
-  if (recorder_) recorder_->visit_ends();
+  tell([&](auto& sink) { sink.visit_ends(); });
 }
 
 void LiveJob::standard_changed(const Standard& standard) {
-  if (recorder_) recorder_->standard_changed(standard);
+  tell([&](auto& sink) { sink.standard_changed(standard); });
 }
 
 void LiveJob::attempt_begins(const AttemptEvent& event) {
-  if (recorder_) recorder_->attempt_begins(event);
+  tell([&](auto& sink) { sink.attempt_begins(event); });
   take_breakpoints();
   if (breakpoints_.is_following()) breakpoints_.attempt_begins(*mesh_, event);
   const bool is_asked = calls_.empty() || breakpoints_.is_following();
@@ -343,12 +384,12 @@ void LiveJob::come_to_condition(const LiveCall& call) {
 }
 
 void LiveJob::candidate_found() {
-  if (recorder_) recorder_->candidate_found();
+  tell([&](auto& sink) { sink.candidate_found(); });
 }
 
 void LiveJob::attempt_ends(Verdict verdict, std::span<const Quality> before,
                            std::span<const Quality> now) {
-  if (recorder_) recorder_->attempt_ends(verdict, before, now);
+  tell([&](auto& sink) { sink.attempt_ends(verdict, before, now); });
   if (breakpoints_.is_following()) {
     breakpoints_.attempt_ends(*mesh_, verdict, before.empty() ? 0 : before.front());
   }
@@ -370,12 +411,12 @@ void LiveJob::attempt_ends(Verdict verdict, std::span<const Quality> before,
 }
 
 void LiveJob::edit_made(const TetMesh& mesh, const Journal& journal) noexcept {
-  if (recorder_) recorder_->edit_made(mesh, journal);
+  tell([&](auto& sink) { sink.edit_made(mesh, journal); });
   if (breakpoints_.is_following()) breakpoints_.edit_made(journal);
 }
 
 void LiveJob::edit_undone() noexcept {
-  if (recorder_) recorder_->edit_undone();
+  tell([&](auto& sink) { sink.edit_undone(); });
 }
 
 /// All that is done, also before and after the passes.

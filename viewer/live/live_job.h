@@ -22,6 +22,7 @@
 #include "schedule/schedule.h"
 #include "trace/recorder.h"
 #include "viewer/live/live_breakpoints.h"
+#include "viewer/live/live_memory.h"
 #include "viewer/live/live_progress.h"
 #include "viewer/mesh/measured_mesh.h"
 
@@ -47,6 +48,15 @@ struct LivePlan {
   std::vector<Condition> breakpoints;
 };
 
+/// A parameter of an operator that the user has changed while the run was held.
+struct ParameterHold {
+  std::string operator_name;
+  std::string parameter;
+  double value = 0;
+  /// "smoothing: cycles = 3"
+  std::string text() const;
+};
+
 /// One `tetmend improve`, followed: layers, walls, bounds, comparison and the way back are its own, so
 /// the result has its bytes. A run that goes back begins anew, with its passes and calls.
 ///
@@ -70,6 +80,9 @@ class LiveJob final : private TraceSink, private face::Follower {
   /// one of these holds, after an edit when the next call begins or the one at hand ends. One that
   /// is for good: after the outermost call.
   void set_breakpoints(std::vector<Condition> conditions);
+  /// Holds from the next pass on, in this run; an event of its traces.
+  /// Precondition: there is such a parameter, and it may have that value.
+  void hold_parameter(ParameterHold change);
   /// Cost: copies the list of passes.
   LiveProgress progress() const;
   LiveState state() const;
@@ -80,14 +93,21 @@ class LiveJob final : private TraceSink, private face::Follower {
   /// or over, and at ends of passes as long as they slow the run by less than a tenth.
   std::unique_ptr<MeasuredMesh> take_snapshot();
 
+  /// A trace of the last calls of the schedule, at least kRemembered or all since it began, with the
+  /// one under way. Empty: there was none. @throws Error when the run is neither paused nor over.
+  std::string last_calls() const;
+  static constexpr std::size_t kRemembered = 10000;
+
  private:
   using Clock = std::chrono::steady_clock;
   enum class Event : std::uint8_t { start, refused_call, accepted_call, pass_end };
 
   void work();
   void run();
-  TraceSink* follow(const TetMesh& mesh) override;
-  void begin_trace();
+  TraceSink* follow(Run& run) override;
+  void begin_traces();
+  void tell(const auto& event);
+  void take_parameters();
   void show_pass(const QualityIndicators& now);
   void show(const Progress& progress);
   void show_note(std::string_view text);
@@ -117,10 +137,13 @@ class LiveJob final : private TraceSink, private face::Follower {
 
   // Of the thread alone.
   MeshData data_;                  // before the run and after it
-  const TetMesh* mesh_ = nullptr;  // meanwhile
+  Run* run_ = nullptr;             // meanwhile
+  const TetMesh* mesh_ = nullptr;  // likewise
   const Standard shown_by_;
   LivePlan plan_;
   std::unique_ptr<TraceRecorder> recorder_;
+  LiveMemory memory_ = LiveMemory(kRemembered);
+  std::size_t parameters_held_ = 0;  // the first of them, in this start of the run
   LiveBreakpoints breakpoints_;
   std::vector<LiveCall> calls_;  // that are under way, the outermost first
   std::optional<LiveCall> last_, last_accepted_;
@@ -141,6 +164,7 @@ class LiveJob final : private TraceSink, private face::Follower {
   // Under the lock.
   LiveProgress shown_;
   std::vector<Condition> new_breakpoints_;
+  std::vector<ParameterHold> parameters_;
   bool is_held_ = false;
   bool is_over_ = false;
   Clock::time_point start_ = Clock::now();

@@ -56,7 +56,8 @@ json to_json(const LiveProgress& progress) {
       {"last_accepted", progress.last_accepted ? to_json(*progress.last_accepted) : json(nullptr)},
       {"last", progress.last ? to_json(*progress.last) : json(nullptr)},
       {"breakpoint", progress.breakpoint},
-      {"trace", progress.trace}};
+      {"trace", progress.trace},
+      {"held_parameters", progress.held_parameters}};
 }
 
 }  // namespace tetmend::viewer

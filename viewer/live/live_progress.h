@@ -67,6 +67,7 @@ struct LiveProgress {
   std::optional<LiveCall> last;  ///< accepted or not
   std::string breakpoint;        ///< at which the run was held; empty: for another reason
   std::string trace;             ///< file of the trace, once it is complete
+  std::vector<std::string> held_parameters;  ///< changed while the run was held, in words
 };
 
 nlohmann::json to_json(const LiveProgress& progress);

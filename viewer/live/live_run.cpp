@@ -148,6 +148,18 @@ void LiveRun::ask(Demand demand) {
   job_->ask(demand);
 }
 
+std::string LiveRun::last_calls() const {
+  if (!job_) throw Error("there was no run yet");
+  return job_->last_calls();
+}
+
+void LiveRun::hold_parameter(const ParameterHold& change) {
+  if (!is_active()) throw Error("no run is at work");
+  Registry tried = registry_;
+  tried.hold(change.operator_name, change.parameter, change.value);
+  job_->hold_parameter(change);
+}
+
 void LiveRun::forget() {
   job_.reset();
   input_.reset();

@@ -76,6 +76,11 @@ class LiveRun {
   /// As LiveJob::wait(); at once when nothing is at work.
   LiveState wait(double seconds) const { return job_ ? job_->wait(seconds) : LiveState::idle; }
   std::unique_ptr<MeasuredMesh> take_snapshot() { return job_ ? job_->take_snapshot() : nullptr; }
+  /// As LiveJob::last_calls(). @throws Error as that, and before the first run.
+  std::string last_calls() const;
+  /// From the next pass on an operator of the run has another value.
+  /// @throws Error when none is at work, and for what the operator does not know or take.
+  void hold_parameter(const ParameterHold& change);
   /// What the runs began with; null before the first.
   const Input* input() const { return input_.get(); }
 

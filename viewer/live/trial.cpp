@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "viewer/live/trial.h"
 
+#include <algorithm>
 #include <cmath>
-#include <random>
-#include <system_error>
 #include <utility>
 
 #include <fmt/format.h>
@@ -16,13 +15,6 @@
 namespace tetmend::viewer {
 
 namespace {
-
-/// A name for a trace that lives as long as its trial.
-std::filesystem::path name_of_trace() {
-  std::random_device dice;
-  return std::filesystem::temp_directory_path() /
-         fmt::format("tetmend-trial-{:08x}{:08x}.trace", dice(), dice());
-}
 
 /// Slots of vertices as a view of the mesh counts them.
 std::vector<std::uint32_t> numbers_of(const TetMesh& mesh, std::span<const VertexHandle> vertices) {
@@ -72,13 +64,14 @@ std::size_t vertices_of(TargetKind kind) {
 
 Trial::Trial(const TetMesh& mesh, const Registry& registry, TrialRequest request,
              const std::string& file)
-    : request_(std::move(request)), trace_(name_of_trace()), result_(mesh) {
+    : request_(std::move(request)), result_(mesh) {
   TraceHeader header;
   header.program = "tetmend-view";
   header.input = file;
   header.schedule = "a trial of " + request_.operator_name;
+  std::string trace;
   {
-    TraceRecorder recorder(trace_, result_, std::move(header));
+    TraceRecorder recorder(trace, result_, std::move(header));
     Run run(result_, registry);
     run.set_trace(&recorder);
     attempt_once(run,
@@ -87,27 +80,14 @@ Trial::Trial(const TetMesh& mesh, const Registry& registry, TrialRequest request
     run.set_trace(nullptr);
     recorder.finish();
   }
-  try {
-    debugger_ = std::make_unique<Debugger>(trace_);
-    const auto calls = debugger_->file().calls();
-    if (calls.empty()) throw Error(request_.operator_name + ": nothing here may be changed");
-    call_ = calls.front();
-  } catch (...) {
-    debugger_.reset();
-    std::error_code none;
-    std::filesystem::remove(trace_, none);
-    throw;
-  }
+  debugger_ = std::make_unique<Debugger>("the trial", trace);
+  const auto calls = debugger_->file().calls();
+  if (calls.empty()) throw Error(request_.operator_name + ": nothing here may be changed");
+  call_ = calls.front();
   is_accepted_ = call_.accepted();
   outcome_ = in_words(call_);
   seconds_ = call_.events.seconds();
   debugger_->seek(call_.events.end);
-}
-
-Trial::~Trial() {
-  std::error_code none;
-  debugger_.reset();
-  std::filesystem::remove(trace_, none);
 }
 
 }  // namespace tetmend::viewer

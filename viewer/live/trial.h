@@ -3,7 +3,6 @@
 // kept or undone.
 #pragma once
 
-#include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
@@ -32,12 +31,11 @@ class Trial {
   /// mesh; it needs two more copies of it.
   Trial(const TetMesh& mesh, const Registry& registry, TrialRequest request,
         const std::string& file);
-  ~Trial();
   Trial(const Trial&) = delete;
   Trial& operator=(const Trial&) = delete;
 
   const TrialRequest& request() const { return request_; }
-  /// The attempt in the debugger, at its end. To be asked for once; the trial must outlive it.
+  /// The attempt in the debugger, at its end. To be asked for once.
   std::unique_ptr<Debugger> take_debugger() { return std::move(debugger_); }
   bool is_accepted() const { return is_accepted_; }
   /// Of the attempt itself, which is the first call of its trace.
@@ -50,7 +48,6 @@ class Trial {
 
  private:
   TrialRequest request_;
-  std::filesystem::path trace_;
   TetMesh result_;
   std::unique_ptr<Debugger> debugger_;
   Call call_;

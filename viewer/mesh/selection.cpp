@@ -118,13 +118,11 @@ class Painter {
       const auto& across = kEdgeVertices[5 - e.edge()];
       const VertexHandle p = v[across[0]];
       const VertexHandle q = v[across[1]];
+      // Outlines: a veil over red tets has a colour of its own, which means nothing.
       for (const VertexHandle end : ends) {
-        face(end, p, q, kLinkFaceColour);
         line(end, p, kLinkEdgeColour, kThin);
         line(end, q, kLinkEdgeColour, kThin);
       }
-      face(ends[0], ends[1], p, kSupportingFaceColour);
-      face(ends[0], ends[1], q, kSupportingFaceColour);
       line(p, q, kSkirtColour, 4);
     }
     line(ends[0], ends[1], kSupportingEdgeColour, kWide);
@@ -136,10 +134,8 @@ class Painter {
   }
   void paint(VertexHandle v) {
     if (!mesh_.tet_of(v).is_valid()) return;
-    Colour colour = kLinkFaceColour;
     for (const TetHandle t : tets_at(mesh_, v)) {
       const auto c = mesh_.vertices(HalfFace(t, mesh_.local_index(t, v)));
-      face(c[0], c[1], c[2], colour);
       for (unsigned i = 0; i < 3; ++i) {
         line(c[i], c[(i + 1) % 3], kLinkEdgeColour, 1);
         line(v, c[i], kSkirtColour, kThin);

@@ -43,8 +43,8 @@ Selection refine(const TetMesh& mesh, const Hit& hit, PickKind kind, const Camer
 /// Around the selection, large enough to see it in its surroundings. Precondition: not nothing.
 Ball ball_around(const TetMesh& mesh, const Selection& selection);
 
-/// Faces and lines on top of the picture. An edge shows its shell: the skirt polygon, supporting
-/// faces and link faces.
+/// Faces and lines on top of the picture. An edge shows its shell: the skirt polygon, and the outlines
+/// of supporting faces and link faces.
 struct Highlight {
   std::vector<SurfaceVertex> faces;
   std::vector<Line> lines;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <exception>
 #include <filesystem>
+#include <functional>
 
 #include <backends/imgui_impl_opengl3.h>
 #include <imgui.h>
@@ -127,10 +128,10 @@ bool begin(const char* name, const Area& area, ImGuiWindowFlags more = 0) {
   return true;
 }
 
-void list_panels(Session& session, Side side) {
+void list_panels(Session& session, const std::function<bool(const Panel&)>& is_wanted) {
   const bool has_trace = session.document.debugger() != nullptr;
   for (const Panel& panel : panels()) {
-    if (panel.side != side || !is_shown(panel, session.document)) continue;
+    if (!is_wanted(panel) || !is_shown(panel, session.document)) continue;
     ImGui::PushID(has_trace ? "trace" : "mesh");
     const bool is_main = !has_trace || panel.subject != Subject::mesh;
     if (is_main && (panel.is_needed == nullptr || panel.is_needed(session.document))) {
@@ -146,12 +147,41 @@ void list_panels(Session& session, Side side) {
   }
 }
 
-/// Takes the lower part of an area for the algorithm. It stays where it is, whatever is above.
-Area dock_algorithm(const Session& session, Area& area, float share) {
-  const float wanted = algorithm_height(session);
-  const float height = std::min(wanted, share * area.height);
+void list_side(Session& session, Side side) {
+  list_panels(session, [&](const Panel& panel) { return panel.side == side; });
+}
+
+/// Panels of a trace where there is one column. Where one enters a call or leaves all, the tab for that
+/// comes to the front.
+void list_in_tabs(Session& session, bool enters, bool leaves) {
+  if (!ImGui::BeginTabBar("##tabs")) return;
+  const auto tab = [&](const char* title, bool comes, auto... is_wanted) {
+    const ImGuiTabItemFlags flags = comes ? ImGuiTabItemFlags_SetSelected : 0;
+    if (!ImGui::BeginTabItem(title, nullptr, flags)) return;
+    (list_panels(session, is_wanted), ...);
+    ImGui::EndTabItem();
+  };
+  const auto is_mesh = [](const Panel& panel) { return panel.subject == Subject::mesh; };
+  const auto is_shell = [](const Panel& panel) { return panel.draw == &draw_shell_panel; };
+  tab("Calls", leaves, [&](const Panel& panel) {
+    return panel.side == Side::left && !is_mesh(panel) && !is_shell(panel);
+  });
+  const auto is_of_pause = [](const Panel& panel) { return panel.draw == &draw_parameters_panel; };
+  tab("Call", enters, is_of_pause, is_shell, [&](const Panel& panel) {
+    return panel.side == Side::right && !is_mesh(panel) && !is_of_pause(panel);
+  });
+  tab("Mesh", false, is_mesh);
+  ImGui::EndTabBar();
+}
+
+/// Takes the lower part of an area. It stays where it is, whatever is above.
+Area dock(Area& area, float height) {
   area.height -= height;
   return {area.x, area.y + area.height, area.width, height};
+}
+
+Area dock_algorithm(const Session& session, Area& area, float share) {
+  return dock(area, std::min(algorithm_height(session), share * area.height));
 }
 
 void teach(Session& session, const Layout& layout) {
@@ -191,6 +221,21 @@ void show_status(Session& session, const Area& area, float scale) {
     ImGui::End();
   }
   ImGui::PopStyleVar();
+}
+
+/// Over all the rest.
+void show_opening(const Opening& opening) {
+  constexpr float kWidth = 24;  // of letters
+  const ImVec2 window = ImGui::GetIO().DisplaySize;
+  ImGui::SetNextWindowPos({window.x / 2, window.y / 2}, ImGuiCond_Always, {0.5F, 0.5F});
+  ImGui::SetNextWindowSize({kWidth * ImGui::GetFontSize(), 0});
+  ImGui::SetNextWindowFocus();
+  ImGui::Begin("##opening", nullptr,
+               ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoTitleBar);
+  ImGui::TextUnformatted(opening.file().filename().string().c_str());
+  ImGui::ProgressBar(static_cast<float>(opening.share()), {-1, 0}, opening.stage().data());
+  ImGui::TextDisabled("%.0f s", opening.seconds());
+  ImGui::End();
 }
 
 /// Words over the picture are as large as those of the panels.
@@ -287,6 +332,7 @@ void Interface::build(Session& session) {
     browser_.draw(session, scale_);
     place_dialog_.draw(session);
     unsaved_dialog_.draw(session);
+    if (document.opening() != nullptr) show_opening(*document.opening());
   });
   if (!is_whole) ImGui::ErrorCheckEndFrameRecover(nullptr);
   ImGui::PushFont(font);
@@ -313,22 +359,41 @@ void Interface::draw() const {
 
 void Interface::panels_around(Session& session, const Layout& layout) {
   constexpr float kMostOfColumn = 0.42F;
+  constexpr float kMostOfOnlyColumn = 0.32F;
+  constexpr float kEventLines = 5.5F;
   if (layout.is_teaching) return teach(session, layout);
   if (begin("##left", layout.left)) {
-    list_panels(session, Side::left);
+    list_side(session, Side::left);
     ImGui::End();
   }
   Area right = layout.right;
   const bool has_trace = session.document.debugger() != nullptr;
+  const bool is_in_call = has_trace && session.document.debugger()->call() != kNoCall;
+  const bool enters = is_in_call && !was_in_call_;
+  const bool leaves = !is_in_call && was_in_call_;
+  was_in_call_ = is_in_call;
   if (has_trace && !right.is_empty()) {
-    if (begin("##algorithm", dock_algorithm(session, right, kMostOfColumn))) {
+    const float share = layout.is_one_column ? kMostOfOnlyColumn : kMostOfColumn;
+    if (begin("##algorithm", dock_algorithm(session, right, share))) {
       draw_algorithm_panel(session);
       ImGui::End();
     }
   }
+  // In tabs, what has happened would be out of sight where the ring is seen.
+  if (layout.is_one_column && is_in_call) {
+    if (begin("##event", dock(right, kEventLines * ImGui::GetTextLineHeightWithSpacing()))) {
+      draw_last_event(session);
+      draw_stack(session);
+      ImGui::End();
+    }
+  }
   if (begin("##right", right)) {
-    if (layout.is_one_column) list_panels(session, Side::left);
-    list_panels(session, Side::right);
+    if (layout.is_one_column && has_trace) {
+      list_in_tabs(session, enters, leaves);
+    } else {
+      if (layout.is_one_column) list_side(session, Side::left);
+      list_side(session, Side::right);
+    }
     ImGui::End();
   }
   if (has_trace && begin("##strip", layout.strip, ImGuiWindowFlags_NoScrollbar)) {

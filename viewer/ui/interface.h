@@ -47,6 +47,7 @@ class Interface {
   Choices choices_;
   KeysPage keys_page_;
   StartPage start_page_;
+  bool was_in_call_ = false;  // in the last layout
   UnsavedDialog unsaved_dialog_;
 };
 

@@ -12,6 +12,10 @@ namespace {
 constexpr float kSideWidth = 290;
 constexpr float kTraceSideWidth = 450;
 constexpr float kStripHeight = 230;
+// In smaller windows a trace has one column and a lower strip, so that the picture has half of it.
+constexpr float kLeastForTwo = 1300;
+constexpr float kOnlySideWidth = 390;
+constexpr float kLowStripHeight = 170;
 constexpr float kMenuHeight = 24;
 constexpr float kStatusHeight = 26;
 constexpr float kTeachingWidth = 0.38F;  // of the window
@@ -49,14 +53,18 @@ Layout lay_out(const Document& document, float scale) {
     teach(layout, width, top, bottom, scale);
     return layout;
   }
-  const float side = std::round((has_trace ? kTraceSideWidth : kSideWidth) * scale);
+  const bool is_narrow = has_trace && width < kLeastForTwo * scale;
+  const float wanted = !has_trace ? kSideWidth : is_narrow ? kOnlySideWidth : kTraceSideWidth;
+  const float side = std::round(wanted * scale);
   const bool is_high = bottom - top >= 4 * top;
-  const float columns = !is_high || 5 * side > 3 * width ? 0 : 2 * width < 5 * side ? 1 : 2;
+  const float columns = !is_high || 5 * side > 3 * width    ? 0
+                        : is_narrow || 2 * width < 5 * side ? 1
+                                                            : 2;
   layout.is_one_column = columns == 1;
   if (columns == 2) layout.left = {0, top, side, bottom - top};
   if (columns >= 1) layout.right = {width - side, top, side, bottom - top};
   layout.canvas = {layout.left.width, top, width - columns * side, bottom - top};
-  const float strip = kStripHeight * scale;
+  const float strip = (is_narrow ? kLowStripHeight : kStripHeight) * scale;
   if (!has_trace || bottom - top < 2 * strip) return layout;
   layout.canvas.height -= strip;
   layout.strip = {layout.canvas.x, bottom - strip, layout.canvas.width, strip};

@@ -18,7 +18,8 @@ struct Layout {
   Area left, right;
   Area strip;  ///< under the picture
   Area status;
-  bool is_one_column = false;  ///< no room for two: all panels are in the right one
+  bool is_one_column =
+      false;  ///< no room for two: all panels are in the right one, of a trace in tabs
   bool is_teaching = false;
   float text = 1;  ///< size of text in panels, in units of the usual one
 };
@@ -26,8 +27,9 @@ struct Layout {
 /// Larger text for a lecture hall.
 inline constexpr float kTeachingText = 1.5F;
 
-/// Without a mesh there are no columns. Of a window that is too small for all of them, columns and then the strip are left out, so that
-/// the picture has at least two fifths of its width.
+/// Without a mesh there are no columns. Of a window that is too small for all of them, columns and then
+/// the strip are left out. From 1280 x 800 on, at scale 1, the picture has half of the window or more, or
+/// there is room for a trace in two columns.
 Layout lay_out(const Document& document, float scale);
 
 }  // namespace tetmend::viewer::ui

@@ -80,24 +80,33 @@ void show_endings(const LedgerRow& row, const LedgerRow* there, std::string& cho
 /// Rows of operators, who refused most first; unfolded, a row for each way to end.
 void show_rows(Debugger& debugger, std::string& chosen) {
   constexpr ImGuiTableFlags kLooks = ImGuiTableFlags_RowBg;
-  if (!ImGui::BeginTable("##ledger", 5, kLooks)) return;
-  const float font = ImGui::GetFontSize();
-  ImGui::TableSetupColumn("operator", ImGuiTableColumnFlags_WidthStretch);
-  for (const char* title : {"calls", "for good", "undone", "refused"}) {
-    ImGui::TableSetupColumn(title, ImGuiTableColumnFlags_WidthFixed, 4.4F * font);
-  }
-  ImGui::TableHeadersRow();
+  const ImVec2 padding = {0.2F * ImGui::GetFontSize(), ImGui::GetStyle().CellPadding.y};
+  ImGui::PushStyleVar(ImGuiStyleVar_CellPadding, padding);  // names have the room
+  const bool is_open = ImGui::BeginTable("##ledger", 5, kLooks);
+  ImGui::PopStyleVar();
+  if (!is_open) return;
   std::vector<LedgerRow> rows = debugger.ledger().by_operator();
   std::stable_sort(rows.begin(), rows.end(), [](const LedgerRow& a, const LedgerRow& b) {
     return a.refused().calls > b.refused().calls;
   });
+  ImGui::TableSetupColumn("operator", ImGuiTableColumnFlags_WidthStretch);
+  std::size_t most = 0;
+  for (const LedgerRow& row : rows) most = std::max(most, row.total().calls);
+  const std::string longest = grouped(most);
+  for (const char* title : {"calls", "for good", "undone", "refused"}) {
+    const float width =
+        std::max(ImGui::CalcTextSize(longest.c_str()).x, ImGui::CalcTextSize(title).x);
+    ImGui::TableSetupColumn(title, ImGuiTableColumnFlags_WidthFixed, width);
+  }
+  ImGui::TableHeadersRow();
   std::vector<LedgerRow> other;
   for (const LedgerRow& row : rows) {
     const std::string name(row.operator_name);
     const LedgerRow* there = row_there(debugger, name, other);
     ImGui::TableNextRow();
     ImGui::TableNextColumn();
-    const bool is_open = ImGui::TreeNodeEx(name.c_str(), ImGuiTreeNodeFlags_NoTreePushOnOpen);
+    const bool is_unfolded = ImGui::TreeNodeEx(name.c_str(), ImGuiTreeNodeFlags_NoTreePushOnOpen,
+                                               "%s", short_name(row.operator_name).c_str());
     if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", name.c_str());
     const std::string of = fmt::format("operator {}", name);
     count_cell(row.total().calls, of, chosen);
@@ -113,7 +122,7 @@ void show_rows(Debugger& debugger, std::string& chosen) {
       number_cell(grouped(there->cell(CallEnding::undone).calls));
       number_cell(grouped(there->refused().calls));
     }
-    if (is_open) show_endings(row, there, chosen);
+    if (is_unfolded) show_endings(row, there, chosen);
   }
   ImGui::EndTable();
 }

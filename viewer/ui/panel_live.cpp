@@ -143,6 +143,7 @@ void buttons(Session& session, LiveState state) {
     button(session, "Pass", "live_step_pass");
     ImGui::NewLine();
     button(session, "Stop", "live_stop");
+    if (is_held) button(session, "Debug", "live_debug");
   } else {
     button(session, "Run", "live_run");
     if (session.document.live.input() != nullptr) buttons_after_run(session);
@@ -266,7 +267,7 @@ void draw_live_panel(Session& session) {
   edit_parameters(session.document);
   const LiveProgress run = session.document.live.progress();
   buttons(session, run.state);
-  if (session.document.debugger() == nullptr) watch(session);
+  if (session.document.debugger() == nullptr || session.document.debugs_live()) watch(session);
   tell_progress(run);
   draw_curves(run);
   list_passes(run);

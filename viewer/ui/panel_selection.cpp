@@ -89,9 +89,9 @@ void draw_selection_panel(Session& session) {
   }
   const auto clicked = show_rows(document, rows);
   if (std::holds_alternative<TetEdge>(document.selection())) {
-    legend("supporting edge and faces", kSupportingEdgeColour);
+    legend("supporting edge", kSupportingEdgeColour);
     legend("skirt polygon", kSkirtColour);
-    legend("link faces", kLinkFaceColour);
+    legend("outlines of supporting faces and link faces", kLinkFaceColour);
   }
   if (clicked) guarded(document, [&] { document.fly_to(*clicked); });
 }

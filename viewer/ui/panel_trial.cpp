@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
 // The sandbox: what was tried, how it ended and how near it was; other parameters run it again.
 #include <algorithm>
-#include <optional>
 
-#include <fmt/format.h>
 #include <imgui.h>
 
 #include "viewer/ui/panels.h"
+#include "viewer/ui/parameter_field.h"
 #include "viewer/ui/wrapped_text.h"
 
 namespace tetmend::viewer::ui {
@@ -20,29 +19,6 @@ double value_of(const TrialRequest& request, const ParameterSpec& spec) {
   return spec.initial;
 }
 
-/// The new value, once the user has let go of it.
-std::optional<double> edit(const ParameterSpec& spec, double value) {
-  const std::string name(spec.name);
-  if (spec.kind == ParameterSpec::Kind::flag) {
-    bool on = value != 0;
-    if (!ImGui::Checkbox(name.c_str(), &on)) return std::nullopt;
-    return on ? 1 : 0;
-  }
-  if (spec.kind == ParameterSpec::Kind::integer) {
-    int whole = static_cast<int>(value);
-    constexpr int kStep = 1;
-    if (!ImGui::InputInt(name.c_str(), &whole, kStep, kStep,
-                         ImGuiInputTextFlags_EnterReturnsTrue)) {
-      return std::nullopt;
-    }
-    return std::clamp(static_cast<double>(whole), spec.low, spec.high);
-  }
-  if (!ImGui::InputDouble(name.c_str(), &value, 0, 0, "%g", ImGuiInputTextFlags_EnterReturnsTrue)) {
-    return std::nullopt;
-  }
-  return std::clamp(value, spec.low, spec.high);
-}
-
 void try_again(Document& document, TrialRequest request, std::string_view name, double value) {
   std::erase_if(request.settings, [&](const auto& setting) { return setting.first == name; });
   request.settings.emplace_back(name, value);
@@ -53,12 +29,7 @@ void edit_settings(Document& document, const OperatorInfo& info) {
   const TrialRequest request = document.trial()->request();
   ImGui::PushItemWidth(0.4F * ImGui::GetContentRegionAvail().x);
   for (const ParameterSpec& spec : info.parameters) {
-    const auto value = edit(spec, value_of(request, spec));
-    if (ImGui::IsItemHovered()) {
-      ImGui::SetTooltip("%s", fmt::format("{}\n{:g} to {:g}; default {:g}", spec.help, spec.low,
-                                          spec.high, spec.initial)
-                                  .c_str());
-    }
+    const auto value = edit_value(spec, value_of(request, spec));
     if (value) try_again(document, request, spec.name, *value);
   }
   ImGui::PopItemWidth();

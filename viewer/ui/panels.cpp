@@ -13,7 +13,15 @@ std::span<const Panel> panels() {
   constexpr auto kIsInside = [](const Document& d) { return d.debugger()->call() != kNoCall; };
   constexpr auto kHasTrial = [](const Document& d) { return d.trial() != nullptr; };
   constexpr auto kHasFound = [](const Document& d) { return d.debugger()->found().has_value(); };
-  static constexpr std::array<Panel, 17> kPanels = {
+  // A list of the worst does not tell where the others are.
+  constexpr auto kHasMany = [](const Document& d) {
+    constexpr std::size_t kMany = 1000;
+    return d.statistics().n_bad > kMany;
+  };
+  constexpr auto kIsPause = [](const Document& d) {
+    return d.debugs_live() && d.live.state() == LiveState::paused;
+  };
+  static constexpr std::array<Panel, 19> kPanels = {
       {{"Ledger", left, trace, &draw_ledger_panel, nullptr, kIsOutside},
        {"Calls", left, trace, &draw_calls_panel},
        {"Run to, breakpoints, bookmarks", left, trace, &draw_breakpoints_panel},
@@ -26,6 +34,8 @@ std::span<const Panel> panels() {
        {"Cuts", left, mesh, &draw_cuts_panel},
        {"Tried here", right, trace, &draw_trial_panel, nullptr, kHasTrial},
        {"Lesson", right, lesson, &draw_lesson_panel},
+       {"Parameters, from the next pass on", right, trace, &draw_parameters_panel, nullptr,
+        kIsPause},
        {"Step", right, trace, &draw_step_panel},
        {"History", right, trace, &draw_history_panel,
         [](const Document& d) { return d.debugger()->history().has_value(); }},
@@ -33,7 +43,8 @@ std::span<const Panel> panels() {
        {"Run", right, mesh, &draw_live_panel,
         [](const Document& d) { return d.live.state() != LiveState::idle; }},
        {"Worst tets", right, mesh, &draw_worst_panel},
-       {"Selection", right, mesh, &draw_selection_panel}}};
+       {"Selection", right, mesh, &draw_selection_panel},
+       {"Where bad tets are many", right, mesh, &draw_places_panel, nullptr, kHasMany}}};
   return kPanels;
 }
 

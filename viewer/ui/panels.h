@@ -30,11 +30,15 @@ void draw_histogram_panel(Session& session);
 void draw_display_panel(Session& session);
 void draw_cuts_panel(Session& session);
 void draw_worst_panel(Session& session);
+/// Where bad tets are many.
+void draw_places_panel(Session& session);
 void draw_statistics_panel(Session& session);
 void draw_selection_panel(Session& session);
 void draw_live_panel(Session& session);
 /// The operator that was tried: how it ended, its parameters, keep or undo.
 void draw_trial_panel(Session& session);
+/// At a pause of a run: parameters of the operator at hand, from the next pass on.
+void draw_parameters_panel(Session& session);
 // With a trace; the lesson with one that has a lesson.
 void draw_calls_panel(Session& session);
 void draw_breakpoints_panel(Session& session);

@@ -12,8 +12,6 @@
 #include "kernel/formats/tet_mesh_io.h"
 #include "kernel/tet_mesh.h"
 #include "viewer/live/program_version.h"
-#include "viewer/mesh/camera.h"
-#include "viewer/mesh/scene.h"
 
 namespace tetmend::viewer::ui {
 
@@ -49,80 +47,34 @@ Choice list_lessons(bool (*entry)(const char* title)) {
   return choice;
 }
 
-/// The surface as it is seen first, flat and lit from the eye.
-void StartPage::make_picture() {
+void StartPage::make_pictures() {
   is_made_ = true;
   example_ = find_example();
-  if (!example_) return;
-  const TetMesh mesh = read_tet_mesh(*example_);
-  Camera camera;
-  camera.look_from("home");
-  const glm::dvec3 ahead = glm::normalize(camera.target - camera.eye());
-  const glm::dvec3 up = camera.up();
-  const glm::dvec3 right = glm::cross(ahead, up);
-  struct Seen {
-    double depth;
-    glm::dvec2 corners[3];
-    double light;
+  const auto carefully = [](const auto& make) {
+    try {
+      make();
+    } catch (const std::exception&) {
+      // a page without a picture is good enough
+    }
   };
-  std::vector<Seen> seen;
-  glm::dvec2 low(1e300);
-  glm::dvec2 high(-1e300);
-  for (std::uint32_t i = 0; i < mesh.tet_slots(); ++i) {
-    for (unsigned f = 0; f < 4; ++f) {
-      const HalfFace face(TetHandle(i), f);
-      if (mesh.is_deleted(face.tet()) || !mesh.is_boundary(face)) continue;
-      const auto c = viewer::corners(mesh, face);
-      const glm::dvec3 normal = glm::normalize(glm::cross(c[1] - c[0], c[2] - c[0]));
-      const double light = std::abs(glm::dot(normal, ahead));
-      Seen triangle{-glm::dot(c[0] + c[1] + c[2], ahead), {}, light};
-      for (int k = 0; k < 3; ++k) {
-        triangle.corners[k] = {glm::dot(c[static_cast<std::size_t>(k)], right),
-                               -glm::dot(c[static_cast<std::size_t>(k)], up)};
-        low = glm::min(low, triangle.corners[k]);
-        high = glm::max(high, triangle.corners[k]);
-      }
-      seen.push_back(triangle);
-    }
+  if (example_) {
+    carefully([&] { picture_ = MeshPicture(read_tet_mesh(*example_), MeshPicture::Look::solid); });
   }
-  std::sort(seen.begin(), seen.end(),
-            [](const Seen& a, const Seen& b) { return a.depth < b.depth; });
-  const double size = std::max(high.x - low.x, high.y - low.y);
-  for (const Seen& triangle : seen) {
-    Triangle drawn{};
-    for (int k = 0; k < 3; ++k) {
-      const glm::dvec2 at =
-          (triangle.corners[k] - (low + high) / 2.0) / std::max(size, 1e-300) + 0.5;
-      drawn.corners[k] = {static_cast<float>(at.x), static_cast<float>(at.y)};
-    }
-    const auto shade = static_cast<float>(0.35 + 0.6 * triangle.light);
-    drawn.colour = ImGui::GetColorU32({0.72F * shade, 0.80F * shade, 0.92F * shade, 1});
-    picture_.push_back(drawn);
+  for (const auto& file : explain::find_lessons()) {
+    carefully([&] {
+      const Lesson lesson = read_lesson(file);
+      lessons_.push_back({lesson.title, lesson.trace.string(), {}});
+      if (lesson.mesh.empty()) return;
+      const TetMesh mesh = read_tet_mesh(lesson.mesh);
+      lessons_.back().picture = MeshPicture(mesh, MeshPicture::Look::glass);
+    });
   }
-}
-
-void StartPage::draw_picture(float width, float height) const {
-  const ImVec2 corner = ImGui::GetCursorScreenPos();
-  const float size = std::min(width, height);
-  ImDrawList& list = *ImGui::GetWindowDrawList();
-  const ImDrawListFlags flags = list.Flags;
-  list.Flags &= ~ImDrawListFlags_AntiAliasedFill;  // no seams between triangles
-  for (const Triangle& triangle : picture_) {
-    ImVec2 at[3];
-    for (int k = 0; k < 3; ++k) {
-      at[k] = {corner.x + width / 2 + (triangle.corners[k].x - 0.5F) * size,
-               corner.y + height / 2 + (triangle.corners[k].y - 0.5F) * size};
-    }
-    list.AddTriangleFilled(at[0], at[1], at[2], triangle.colour);
-  }
-  list.Flags = flags;
-  ImGui::Dummy({width, height});
 }
 
 Choice StartPage::draw_cards(float width) {
   Choice choice;
   const float gap = ImGui::GetStyle().ItemSpacing.x;
-  const ImVec2 card = {(width - gap) / 2, 3.2F * ImGui::GetFontSize()};
+  const ImVec2 card = {(width - gap) / 2, 3 * ImGui::GetFontSize()};
   if (ImGui::Button("Open a file ...\nCtrl+O, or drop it here", card)) {
     choice.command = &find_command("open");
   }
@@ -133,10 +85,42 @@ Choice StartPage::draw_cards(float width) {
   return choice;
 }
 
-Choice StartPage::draw_lists(const Document& document) {
+/// A card: the mesh it begins with, and its title.
+bool StartPage::draw_lesson(const LessonCard& lesson, const ImVec2& size) {
+  const ImVec2 corner = ImGui::GetCursorScreenPos();
+  const bool is_chosen = ImGui::Button("##lesson", size);
+  const float pad = ImGui::GetStyle().FramePadding.y;
+  const float side = size.y - 2 * pad;
+  lesson.picture.draw({corner.x + pad, corner.y + pad}, {side, side});
+  const float left = corner.x + side + 3 * pad;
+  const float room = size.x - side - 4 * pad;
+  const ImVec2 text = ImGui::CalcTextSize(lesson.title.c_str(), nullptr, false, room);
+  ImGui::GetWindowDrawList()->AddText(ImGui::GetFont(), ImGui::GetFontSize(),
+                                      {left, corner.y + std::max(pad, (size.y - text.y) / 2)},
+                                      ImGui::GetColorU32(ImGuiCol_Text), lesson.title.c_str(),
+                                      nullptr, room);
+  return is_chosen;
+}
+
+Choice StartPage::draw_lessons(float width) {
+  constexpr int kInRow = 2;
+  Choice choice;
+  if (lessons_.empty()) return choice;
   ImGui::Spacing();
-  ImGui::TextDisabled("Lessons: traces with a text that leads through them");
-  Choice choice = list_lessons([](const char* title) { return ImGui::Selectable(title); });
+  ImGui::TextDisabled("Lessons: recorded runs with a text that leads through them");
+  const float gap = ImGui::GetStyle().ItemSpacing.x;
+  const ImVec2 card = {(width - (kInRow - 1) * gap) / kInRow, 3 * ImGui::GetFontSize()};
+  for (std::size_t i = 0; i < lessons_.size(); ++i) {
+    if (i % kInRow != 0) ImGui::SameLine();
+    ImGui::PushID(static_cast<int>(i));
+    if (draw_lesson(lessons_[i], card)) choice = {&find_command("open"), {lessons_[i].trace}};
+    ImGui::PopID();
+  }
+  return choice;
+}
+
+Choice StartPage::draw_recent(const Document& document) {
+  Choice choice;
   if (document.recent.empty()) return choice;
   ImGui::Spacing();
   ImGui::TextDisabled("Opened lately");
@@ -153,14 +137,8 @@ Choice StartPage::draw_lists(const Document& document) {
 Choice StartPage::draw(const Document& document, float scale) {
   constexpr float kWidth = 640;
   constexpr float kLeastForPicture = 620;
-  constexpr float kPictureHeight = 180;
-  if (!is_made_) {
-    try {
-      make_picture();
-    } catch (const std::exception&) {
-      picture_.clear();  // a page without a picture is good enough
-    }
-  }
+  constexpr float kPictureHeight = 160;
+  if (!is_made_) make_pictures();
   const ImVec2 window = ImGui::GetIO().DisplaySize;
   const float width = std::min(kWidth * scale, window.x);
   ImGui::SetNextWindowPos({window.x / 2, window.y / 2}, ImGuiCond_Always, {0.5F, 0.5F});
@@ -171,12 +149,15 @@ Choice StartPage::draw(const Document& document, float scale) {
   ImGui::Text("tetmend %s", std::string(program_version()).c_str());
   ImGui::SetWindowFontScale(1);
   ImGui::TextDisabled("tetrahedral meshes, their bad tets, and runs that mend them");
-  if (!picture_.empty() && window.y >= kLeastForPicture * scale) {
-    draw_picture(inside, kPictureHeight * scale);
+  if (!picture_.is_empty() && window.y >= kLeastForPicture * scale) {
+    const ImVec2 size = {inside, kPictureHeight * scale};
+    picture_.draw(ImGui::GetCursorScreenPos(), size);
+    ImGui::Dummy(size);
   }
   Choice choice = draw_cards(inside);
-  Choice listed = draw_lists(document);
-  if (listed.command != nullptr) choice = std::move(listed);
+  for (Choice listed : {draw_lessons(inside), draw_recent(document)}) {
+    if (listed.command != nullptr) choice = std::move(listed);
+  }
   ImGui::End();
   return choice;
 }

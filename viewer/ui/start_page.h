@@ -4,12 +4,14 @@
 
 #include <filesystem>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include <imgui.h>
 #include <nlohmann/json.hpp>
 
 #include "viewer/commands/commands.h"
+#include "viewer/ui/mesh_picture.h"
 
 namespace tetmend::viewer::ui {
 
@@ -27,18 +29,21 @@ class StartPage {
   Choice draw(const Document& document, float scale);
 
  private:
-  struct Triangle {
-    ImVec2 corners[3];  // 0 to 1
-    ImU32 colour;
+  struct LessonCard {
+    std::string title;
+    std::string trace;
+    MeshPicture picture;  // of the mesh that it begins with
   };
-  void make_picture();
-  void draw_picture(float width, float height) const;
+  void make_pictures();
+  static bool draw_lesson(const LessonCard& lesson, const ImVec2& size);
   Choice draw_cards(float width);
-  Choice draw_lists(const Document& document);
+  Choice draw_lessons(float width);
+  static Choice draw_recent(const Document& document);
 
   bool is_made_ = false;
   std::optional<std::filesystem::path> example_;  // a mesh that tetmend brings along
-  std::vector<Triangle> picture_;                 // of it, the farthest first
+  MeshPicture picture_;                           // of it
+  std::vector<LessonCard> lessons_;
 };
 
 }  // namespace tetmend::viewer::ui

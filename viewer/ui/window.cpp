@@ -83,13 +83,18 @@ class Window : public Host {
   Window& operator=(const Window&) = delete;
 
   /// Draws only after events. While a run is at work it draws now and then.
-  void run(bool fit) {
-    fit_first_ = fit && document_.has_mesh();
+  void run(const Then& then) {
+    while (document_.opening() != nullptr && !document_.quit) wait_for_file();
+    if (document_.quit) return;
+    fit_first_ = then(document_) && document_.has_mesh();
     while (!document_.quit) {
       if (glfwWindowShouldClose(window_) == GLFW_TRUE) {
         glfwSetWindowShouldClose(window_, GLFW_FALSE);
         run_from_window(find_command("quit"), session_);
       }
+      guarded(document_, [&] {
+        while (document_.opening() != nullptr && !document_.quit) wait_for_file();
+      });
       deliver_inputs();
       if (document_.quit) break;
       frame();
@@ -123,6 +128,16 @@ class Window : public Host {
   }
 
  private:
+  /// Shows a bar. What is typed meanwhile is for the file that comes; the window can be closed.
+  void wait_for_file() {
+    constexpr double kLook = 0.05;  // seconds
+    frame();
+    glfwSwapBuffers(window_);
+    glfwPollEvents();
+    if (glfwWindowShouldClose(window_) == GLFW_TRUE) document_.quit = true;
+    document_.follow_opening(kLook);
+  }
+
   /// For undo: not in the middle of a drag.
   void keep_view() {
     const bool is_held = std::find(buttons_.begin(), buttons_.end(), true) != buttons_.end();
@@ -149,7 +164,7 @@ class Window : public Host {
   /// Drawing may take longer than a user takes to click and type. So what comes meanwhile waits,
   /// and panels see one button and one key at a time: they decide by the last layout whose it is.
   void deliver_inputs() {
-    while (!inputs_.empty() && !document_.quit) {
+    while (!inputs_.empty() && !document_.quit && document_.opening() == nullptr) {
       const Input input = std::move(inputs_.front());
       inputs_.pop_front();
       if (input.is_button) lay_out();  // for the place of the mouse
@@ -344,10 +359,14 @@ class Window : public Host {
 
 }  // namespace
 
-void run_window(Document& document, float scale, bool fit) {
-  const Library library;
+void run_window(Document& document, float scale, const std::filesystem::path& file,
+                const Then& then) {
   ui::recall(document);
-  Window(document, scale).run(fit);
+  document.debugs_pauses = true;
+  document.opens_in_background = true;
+  if (!file.empty()) document.begin_to_open(file);  // what cannot be read needs no window
+  const Library library;
+  Window(document, scale).run(then);
   ui::remember(document);
 }
 

@@ -659,6 +659,7 @@ TEST_CASE("the name of an included file that is too long for any is a file that 
       read(folder, replaced(text(), "FORCE ", "INCLUDE '" + std::string(5000, 'x') + "'\nFORCE "));
   REQUIRE(!mesh.notes.empty());
   CHECK(mesh.notes[0].find("includes is not read") != std::string::npos);
+}
 
 TEST_CASE("a deck asked for in short, long or free fields has them, and says the same") {
   const TempFolder folder;

@@ -5,6 +5,7 @@
 #include "kernel/formats/mesh_io.h"
 #include "kernel/mesh_view.h"
 #include "tests/kernel/formats/fixtures.h"
+#include "tests/support/second_order.h"
 #include "tests/viewer/session.h"
 #include "viewer/commands/script.h"
 
@@ -155,4 +156,49 @@ TEST_CASE("what would lose unsaved work waits for an answer in the window, not i
   CHECK(s.document.file() == other);
   CHECK(s.document.recent.front() == other);
   CHECK_FALSE(s.document.has_unsaved());
+}
+
+TEST_CASE("to save while a trial is shown keeps what was accepted and undoes what was refused") {
+  const test::TempFolder folder;
+  {
+    TestSession s(sheet());
+    REQUIRE(try_until_accepted(s));
+    const std::string tried = bytes_of(s.document);
+    s.run("save", {(folder / "kept.mesh").string()});
+    CHECK(test::read_text(folder / "kept.mesh") == tried);
+    CHECK(s.document.trial() == nullptr);
+    CHECK(bytes_of(s.document) == tried);
+    CHECK_FALSE(s.document.has_unsaved());
+  }
+  TestSession s(sheet());
+  const std::string before = bytes_of(s.document);
+  const TetVertices v = s.document.mesh().vertices(TetHandle(0));
+  const json result = s.run("try_operator", {{{"operator", "edge_removal"},
+                                              {"edge", {v[0].index(), v[1].index()}},
+                                              {"set", {{"max_degree", 3}}}}});
+  REQUIRE(result["accepted"] == false);
+  s.run("save", {(folder / "undone.mesh").string()});
+  CHECK(test::read_text(folder / "undone.mesh") == before);
+  CHECK(s.document.trial() == nullptr);
+}
+
+TEST_CASE("what is kept keeps mid-side nodes and arrays of its file, and is saved with them") {
+  const test::TempFolder folder;
+  MeshData data = test::second_order(sheet(), 0);
+  data.tet_data = {{"number", 1, std::vector<double>(data.tets.size(), 7)}};
+  write_mesh(folder / "in.vtu", data);
+  TestSession s(sheet());
+  s.document.open(folder / "in.vtu");
+  for (int i = 0; i < 2; ++i) {  // the second on what the first has made
+    REQUIRE(try_until_accepted(s));
+    s.run("keep");
+    const auto tets = s.document.mesh().tet_count();
+    s.run("save", {(folder / "out.vtu").string()});
+    const MeshData out = read_mesh(folder / "out.vtu");
+    CHECK(out.tets.size() == tets);
+    CHECK(out.mid_nodes.size() > tets);  // one for each edge
+    REQUIRE(out.tet_data.size() == 1);
+    CHECK(out.tet_data[0].name == "number");
+    CHECK(s.document.message.text.find("without") == std::string::npos);
+  }
 }

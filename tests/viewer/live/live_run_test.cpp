@@ -393,11 +393,13 @@ TEST_CASE(
     "the trace of a recorded run opens in the debugger, and the run can be made again there") {
   TestSession s(test::delaunay_ball(100, 1));
   const test::TempFolder folder;
-  CHECK_THROWS_WITH_AS(s.run("live_debug"), doctest::Contains("record"), Error);
+  CHECK_THROWS_WITH_AS(s.run("live_debug"), doctest::Contains("no run yet"), Error);
   s.run("live_run");
   s.run("live_wait");
-  CHECK_THROWS_WITH_AS(s.run("live_debug"), doctest::Contains("record"), Error);
   CHECK(s.document.debugger() == nullptr);
+  s.run("live_debug");  // not recorded: its last calls
+  REQUIRE(s.document.debugger() != nullptr);
+  CHECK(s.document.debugger()->file().calls().size() > 100);
 
   s.run("live_record", {(folder / "run.trace").string()});
   const std::size_t bad_before = s.document.live.input()->statistics.n_bad;
@@ -456,6 +458,115 @@ TEST_CASE("the goal of the viewer is that of the figures, of live runs and of th
   s.run("to_end");
   CHECK(s.run("goal")["min"] == 30);  // the schedule is over
   CHECK_THROWS_WITH_AS(s.run("goal", {20}), doctest::Contains("trace"), Error);
+}
+
+TEST_CASE(
+    "a paused run is the debugger of its last calls, backwards too, and goes on as if never held") {
+  const auto improved = [](bool is_looked_into) {
+    TestSession s(test::delaunay_ball(300, 1));
+    s.run(is_looked_into ? "live_start" : "live_run");
+    if (is_looked_into) {
+      REQUIRE(s.run("live_wait")["state"] == "paused");
+      CHECK_THROWS_WITH_AS(s.run("live_debug"), doctest::Contains("no call yet"), Error);
+      for (int i = 0; i < 5; ++i) {
+        s.run("live_step_call");
+        REQUIRE(s.run("live_wait")["state"] == "paused");
+        const std::size_t bad = s.document.statistics().n_bad;
+        const std::size_t tets = s.document.mesh().tet_count();
+        s.run("live_debug");
+        REQUIRE(s.document.debugger() != nullptr);
+        CHECK(s.document.debugs_live());
+        const TraceFile& file = s.document.debugger()->file();
+        CHECK(std::count_if(file.calls().begin(), file.calls().end(),
+                            [](const Call& call) { return call.parent == kNoCall; }) == i + 1);
+        CHECK(s.document.statistics().n_bad == bad);
+        CHECK(s.document.mesh().tet_count() == tets);
+        CHECK(s.document.debugger()->call() != kNoCall);  // the one that has just ended
+        CHECK(s.document.debugger()->study() != nullptr);
+        s.run("back_over");
+        CHECK(s.document.debugger()->position() < s.document.debugger()->end());
+        s.run("to_begin");
+      }
+      s.run("live_continue");
+    }
+    REQUIRE(s.run("live_wait")["state"] == "finished");
+    CHECK(s.document.debugger() == nullptr);
+    const test::TempFolder folder;
+    s.run("save", {(folder / "out.mesh").string()});
+    return test::read_text(folder / "out.mesh");
+  };
+  CHECK(improved(true) == improved(false));
+}
+
+TEST_CASE("in the window a pause shows its calls by itself, and the run its mesh again") {
+  TestSession s(test::delaunay_ball(300, 1));
+  s.document.debugs_pauses = true;
+  const Camera camera = s.document.view.camera;
+  s.run("live_start");
+  REQUIRE(s.run("live_wait")["state"] == "paused");
+  CHECK(s.document.debugger() == nullptr);  // there is no call yet
+  s.run("live_step");
+  REQUIRE(s.run("live_wait")["state"] == "paused");
+  REQUIRE(s.document.debugger() != nullptr);
+  CHECK(s.document.debugger()->position() == s.document.debugger()->end());
+  CHECK(s.document.view.scene.isolate);
+  s.run("breakpoint", {"operator edge_split"});  // of the run, not of what is looked at
+  CHECK(s.document.live.breakpoints.size() == 1);
+  s.run("clear_breakpoints");
+  s.run("live_continue");
+  REQUIRE(s.run("live_wait")["state"] == "finished");
+  CHECK(s.document.debugger() == nullptr);
+  CHECK_FALSE(s.document.view.scene.isolate);
+  CHECK(s.document.view.camera == camera);  // and not in the last hole
+}
+
+TEST_CASE("a pause in the middle of a call shows that call as under way") {
+  TestSession s(test::delaunay_ball(300, 1));
+  s.run("breakpoint", {"deeper 0"});
+  s.run("live_run");
+  REQUIRE(s.run("live_wait")["state"] == "paused");
+  s.run("live_debug");
+  const auto calls = s.document.debugger()->file().calls();
+  const auto& stack = s.document.debugger()->stack();
+  REQUIRE(stack.size() >= 2);
+  CHECK_FALSE(calls[stack.front()].verdict);
+  s.run("live_stop");
+}
+
+TEST_CASE(
+    "a parameter that is changed at a pause holds from the next pass on, and is in the trace") {
+  TestSession s(test::delaunay_ball(300, 1));
+  const test::TempFolder folder;
+  s.run("live_schedule", {"operator recursive_shell_transformation"});
+  s.run("live_set", {"rounds_at_most", 3});
+  s.run("live_record", {(folder / "run.trace").string()});
+  CHECK_THROWS_WITH_AS(s.run("live_hold", {"recursive_shell_transformation", "max_level", 1}),
+                       doctest::Contains("no run is at work"), Error);
+  s.run("live_start");
+  s.run("live_wait");
+  s.run("live_step_pass");
+  REQUIRE(s.run("live_wait")["state"] == "paused");
+  CHECK_THROWS_WITH_AS(s.run("live_hold", {"recursive_shell_transformation", "max_level", 999}),
+                       doctest::Contains("max_level"), Error);
+  CHECK_THROWS_AS(s.run("live_hold", {"nope", "max_level", 1}), Error);
+  s.run("live_hold", {"recursive_shell_transformation", "max_level", 1});
+  CHECK(s.run("live_state")["held_parameters"] ==
+        nlohmann::json{"recursive_shell_transformation: max_level = 1"});
+  s.run("live_continue");
+  REQUIRE(s.run("live_wait")["state"] == "finished");
+  const TraceFile file(folder / "run.trace");
+  REQUIRE(file.parameter_changes().size() == 1);
+  REQUIRE(file.passes().size() >= 2);
+  CHECK(file.parameter_changes()[0].event == file.passes()[1].events.begin - 1);
+  bool was_other = false;
+  for (const Call& call : file.calls()) {
+    if (call.parent != kNoCall) continue;
+    const bool is_later = call.events.begin > file.parameter_changes()[0].event;
+    const bool is_held = file.name(call.settings).find("max_level = 1") != std::string_view::npos;
+    CHECK(is_held == is_later);
+    was_other = was_other || !is_held;
+  }
+  CHECK(was_other);
 }
 
 TEST_CASE("a run at work is not debugged") {
@@ -688,8 +799,9 @@ TEST_CASE("every operator alone can be described") {
   }
 }
 
-TEST_CASE("the camera goes to each change of a run, and its place is marked") {
+TEST_CASE("the camera goes to each change of a run, and back when it is over") {
   TestSession s(test::delaunay_ball(100, 1));
+  const Camera before = s.document.view.camera;
   run_script(s.session, R"lua(
     expect(live_speed() == 0, "no limit")
     live_start()
@@ -698,9 +810,6 @@ TEST_CASE("the camera goes to each change of a run, and its place is marked") {
     live_step()
     run = live_wait()
     expect(run.last.verdict == "accepted", "a change")
-    live_follow()
-    live_stop()
-    live_wait()
   )lua",
              "t.lua");
   const LiveProgress progress = s.document.live.progress();
@@ -708,5 +817,9 @@ TEST_CASE("the camera goes to each change of a run, and its place is marked") {
   const Point& place = progress.last_accepted->place;
   CHECK(glm::distance(s.document.view.camera.target, glm::dvec3(place.x(), place.y(), place.z())) <
         1e-9);
+  s.run("live_follow");
   CHECK_FALSE(s.document.follow_changes_live);
+  s.run("live_stop");
+  REQUIRE(s.run("live_wait")["state"] == "stopped");
+  CHECK(s.document.view.camera == before);
 }

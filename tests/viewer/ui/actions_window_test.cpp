@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+// How many keys and clicks a question takes, in a window of 1280 x 800.
+#include <doctest/doctest.h>
+
+#include "tests/support/example_traces.h"
+#include "tests/viewer/window.h"
+#include "trace/ledger.h"
+
+using namespace tetmend;
+using namespace tetmend::test;
+
+namespace {
+
+constexpr const char* kSize = "1280x800";
+
+/// Moving the mouse is no action; a key and a click are.
+class Hand {
+ public:
+  void key(const std::string& name) {
+    type("key " + name);
+    ++actions;
+  }
+  void click(int x, int y, int button = 1) {
+    type(fmt::format("mousemove {} {} sleep 0.2 click {} sleep 0.2", x, y, button));
+    ++actions;
+  }
+  static void move(int x, int y) { type(fmt::format("mousemove {} {} sleep 0.4", x, y)); }
+  int actions = 0;
+};
+
+}  // namespace
+
+TEST_CASE(
+    "who refused most is there when a trace opens, and all those refusals are one click away") {
+  if (!can_test_window()) return;
+  const TracedBall trace;
+  const TraceFile file(trace.path());
+  const Ledger ledger = make_ledger(file);
+  std::vector<LedgerRow> rows = ledger.by_operator();
+  std::stable_sort(rows.begin(), rows.end(), [](const LedgerRow& a, const LedgerRow& b) {
+    return a.refused().calls > b.refused().calls;
+  });
+  Viewer viewer(trace.path(), kSize);
+  wait_until_still();
+  Hand hand;
+  hand.click(1245, 170);  // what the first row has under "refused"
+  const auto state = viewer.quit();
+  CHECK(state["trace"]["found"]["condition"] ==
+        fmt::format("operator {} and refused", rows.front().operator_name));
+  CHECK(state["trace"]["found"]["calls"] == rows.front().refused().calls);
+  CHECK(hand.actions <= 2);
+}
+
+TEST_CASE("an operator is tried on a picked tet by two clicks, and undone by one") {
+  if (!can_test_window()) return;
+  Viewer viewer("sheet.mesh", kSize);
+  wait_until_still();
+  Hand hand;
+  hand.click(640, 400, 3);
+  Hand::move(670, 458);  // Try ...
+  hand.click(830, 460);  // the first operator for tets
+  CHECK(hand.actions == 2);
+  Hand::move(640, 300);
+  const auto state = viewer.quit();
+  REQUIRE(state["trial"].is_object());
+  CHECK(state["trial"]["target"].size() == 4);
+  CHECK(state["trial"]["seconds"] < 0.1);
+}
+
+TEST_CASE("pause, three calls back, explain, another parameter, go on: six actions") {
+  if (!can_test_window()) return;
+  Viewer viewer("sheet.mesh", kSize);
+  type("key shift+F6 sleep 1");  // always the same calls: F7 would come at any of them
+  for (int i = 0; i < 8; ++i) type("key F9 sleep 0.5");
+  wait_until_still();
+  Hand hand;
+  hand.key("F9");  // goes on, and is held at the next change
+  wait_until_still();
+  for (int i = 0; i < 3; ++i) hand.key("Up");
+  wait_until_still();     // why it ended as it did stands beside the picture
+  hand.click(1030, 145);  // one more step for each vertex
+  hand.key("F8");
+  CHECK(hand.actions <= 6);
+  const auto state = viewer.quit();
+  CHECK(state["held_parameters"] == nlohmann::json{"mean_smoothing: steps = 3"});
+}
