@@ -183,7 +183,11 @@ void improve_in_core(const ImproveOptions& options, ProgressLine& line,
   }
   report.result = improve_watched(options, line, interruption, [&](const Options& run) {
     face::Portrait* const portrait = options.reports.empty() ? nullptr : &report.portrait;
-    if (!options.pieces.is_divided()) return face::improve(mesh, run, trace, portrait);
+    const bool shows_all = options.verbose || portrait != nullptr;
+    if (!options.pieces.is_divided()) {
+      return face::improve(mesh, run, trace, portrait,
+                           shows_all ? face::Figures::all : face::Figures::judging);
+    }
     pieces::Division division;
     division.pieces = options.pieces.pieces;
     return pieces::improve(mesh, run, division, {}, portrait, &trace);

@@ -81,10 +81,11 @@ std::size_t count_touched(const TetMesh& mesh) {
 class Improvement {
  public:
   Improvement(Mesh& mesh, const Options& options, face::Plan& plan, face::Portrait* portrait,
-              face::Follower* follower)
+              face::Follower* follower, face::Figures figures = face::Figures::all)
       : user_mesh_(mesh),
         options_(options),
         plan_(plan),
+        figures_(figures),
         portrait_(portrait),
         follower_(follower),
         watcher_(options),
@@ -129,6 +130,9 @@ class Improvement {
   void measure_before();
   void run_schedule(std::size_t passes, double seconds);
   void measure_after();
+  CgSteps cg_steps() const {
+    return figures_ == face::Figures::all ? CgSteps::estimated : CgSteps::left_out;
+  }
   bool gives_for_mending() const {
     return result_.worse().size() > face::worse_for_nothing(result_).size();
   }
@@ -162,6 +166,7 @@ class Improvement {
   Mesh& user_mesh_;
   const Options& options_;
   face::Plan& plan_;
+  const face::Figures figures_;
   face::Portrait* portrait_;  // null: nobody asked for one
   face::Follower* follower_;  // likewise
   face::Watcher watcher_;
@@ -271,8 +276,9 @@ void Improvement::measure_before() {
     if (options_.tets.empty()) check_wanted(result_.sizes_before->tets_wanted);
   }
   if (options_.rulers) {
-    result_.rulers_before = diagonals_ ? measure_rulers(mesh_, *diagonals_) : measure_rulers(mesh_);
-    lengths_ = face::LocalLengths(mesh_, vertices_before_);
+    result_.rulers_before = diagonals_ ? measure_rulers(mesh_, *diagonals_, cg_steps())
+                                       : measure_rulers(mesh_, cg_steps());
+    if (figures_ == face::Figures::all) lengths_ = face::LocalLengths(mesh_, vertices_before_);
   }
   surface_before_ = result_.surface_fingerprint_before = surface_fingerprint(mesh_);
   if (!plan_.surface.is_fixed())
@@ -338,8 +344,9 @@ void Improvement::measure_after() {
   const Stopwatch watch(result_.measuring);
   result_.after = compute_statistics(mesh_, options_.goal);
   if (options_.rulers) {
-    result_.rulers_after = measure_rulers(mesh_);
-    result_.size_drift = lengths_.drift_to(lengths_.renewed(mesh_));
+    result_.rulers_after = measure_rulers(mesh_, cg_steps());
+    if (figures_ == face::Figures::all)
+      result_.size_drift = lengths_.drift_to(lengths_.renewed(mesh_));
   }
   if (curved_edges_) result_.curved_after = curved_edges_->statistics(mesh_);
   if (plan_.sizes.are_wanted()) result_.sizes_after = face::size_statistics(mesh_);
@@ -655,14 +662,14 @@ std::vector<std::string> Result::missed_aims() const {
 }
 
 Result face::improve(Mesh& mesh, const Options& options, std::unique_ptr<TraceRecorder>& trace,
-                     Portrait* portrait) {
+                     Portrait* portrait, Figures figures) {
   Plan plan(options);
   if (!options.trace_piece.empty()) {
     throw OptionError("trace_piece", "trace_piece: the run is not in pieces");
   }
   TracePlan::check_files(options, mesh.file());
   return face::on_threads(face::threads_of(options), [&] {
-    Improvement improvement(mesh, options, plan, portrait, nullptr);
+    Improvement improvement(mesh, options, plan, portrait, nullptr, figures);
     Result result = improvement.run();
     trace = improvement.take_trace();
     return result;

@@ -16,12 +16,16 @@
 
 namespace tetmend::face {
 
+/// Which figures a result has: all, or those that a run is judged by. What nobody reads need not be
+/// measured: then Result::size_drift is empty, and MeshRulers::cg_steps and work are no numbers.
+enum class Figures : bool { judging, all };
+
 /// As tetmend::improve(), but the trace is not finished.
 /// @param trace what finish() gives its name; null if none was asked for. No event may follow.
 /// @param portrait null, or empty; filled before improve() returns. For a million tets that takes
 /// about 0.5 s on one thread.
 Result improve(Mesh& mesh, const Options& options, std::unique_ptr<TraceRecorder>& trace,
-               Portrait* portrait = nullptr);
+               Portrait* portrait = nullptr, Figures figures = Figures::all);
 
 /// As tetmend::improve(), drawn. @param portrait see above
 Result improve(Mesh& mesh, const Options& options, Portrait* portrait);

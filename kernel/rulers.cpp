@@ -175,19 +175,16 @@ TETMEND_WIDE void measure(const PointRows<4>& rows, Tally<kTetRulers>& tally,
   }
 }
 
-/// What the four faces of each tet of a block have beyond them: a vertex of the tet there.
-struct Surroundings {
-  // A face that another tet counts, and those that count.
-  static constexpr double kElsewhere = 0, kInner = 1, kBoundary = 2;
-  PointRows<4> points;
-  std::array<std::array<WideVector, PointRows<4>::kMost / kWideLanes>, 4> kinds;
+/// Faces that count: the vertex opposite, the three of the face counterclockwise as seen from
+/// outside, and the vertex beyond; on the boundary the first again.
+struct FaceRows {
+  PointRows<5> points;
+  std::array<WideVector, PointRows<5>::kMost / kWideLanes> is_inner{};  // 1 or 0
 
-  /// Lanes that are left over count for nothing.
-  void pad() {
-    points.pad();
-    for (std::size_t lane = points.size(); lane % kWideLanes != 0; ++lane) {
-      for (auto& kind : kinds) kind[lane / kWideLanes][lane % kWideLanes] = kElsewhere;
-    }
+  void add(const std::array<const Point*, 5>& face, bool inner) {
+    const std::size_t i = points.size();
+    is_inner[i / kWideLanes][i % kWideLanes] = inner ? 1 : 0;
+    points.add(face);
   }
 };
 
@@ -236,21 +233,21 @@ struct FacesAbove {
   WideVector counts = {};
 };
 
-/// Enters the scores of face f of each tet of a block, and counts those of more than 70 degrees.
-TETMEND_WIDE void measure_faces(const PointRows<4>& rows, const Surroundings& surroundings,
-                                unsigned f, Tally<kFaceRulers>& tally, FacesAbove& above) {
-  const auto& [i, j, k] = kFaceVertices[f];
+/// Enters the scores of faces, and counts those of more than 70 degrees.
+TETMEND_WIDE void measure_faces(const FaceRows& rows, Tally<kFaceRulers>& tally,
+                                FacesAbove& above) {
   const WideVector zero = {};
   const WideVector one = zero + 1.0;
-  for (std::size_t g = 0; g < rows.groups(); ++g) {
-    const auto& group = rows.group(g);
-    const WideVector kind = surroundings.kinds[f][g];
-    const FaceScores scores = score_face(
-        wide_point(group, f), wide_point(group, i), wide_point(group, j), wide_point(group, k),
-        wide_point(surroundings.points.group(g), f), kind == Surroundings::kBoundary);
-    enter(tally, 0, g, scores.cosine, kind == Surroundings::kInner);
+  for (std::size_t g = 0; g < rows.points.groups(); ++g) {
+    const auto in_use = lanes_in_use(rows.points, g);
+    const auto& group = rows.points.group(g);
+    const auto is_inner = rows.is_inner[g] > 0.0;
+    const FaceScores scores =
+        score_face(wide_point(group, 0), wide_point(group, 1), wide_point(group, 2),
+                   wide_point(group, 3), wide_point(group, 4), !is_inner);
+    enter(tally, 0, g, scores.cosine, in_use & is_inner);
     above.counts += tally.scores[0][g] < above.cosine ? one : zero;
-    enter(tally, 1, g, scores.skewness, kind != Surroundings::kElsewhere);
+    enter(tally, 1, g, scores.skewness, in_use);
   }
 }
 
@@ -302,14 +299,9 @@ class Surveyor {
         count(tets_, 0, rows.points.size());
         for (std::size_t r = 0; r < kTetRulers; ++r) part_.of[r].count += rows.points.size();
       }
-      if (!subject_.faces) return;
-      look_around(rows);
-      for (unsigned f = 0; f < 4; ++f) {
-        measure_faces(rows.points, surroundings_, f, faces_, faces_above_70_);
-        sift(faces_, kTetRulers);
-        count(faces_, kTetRulers, rows.points.size());
-      }
+      if (subject_.faces) look_around(rows);
     });
+    finish_faces();
     for (std::size_t i = 0; i < kWideLanes; ++i) {
       part_.shortest_edge = std::min<double>(part_.shortest_edge, shortest_edge_[i]);
       part_.faces_above_70 += static_cast<std::size_t>(faces_above_70_.counts[i]);
@@ -356,38 +348,39 @@ class Surveyor {
 
   /// Each inner face counts once, with the tet of the lower number.
   void look_around(const TetRows& rows) {
-    surroundings_.points.clear();
-    const std::size_t size = rows.points.size();
-    std::size_t inner = 0, boundary = 0;
-    for (std::size_t i = 0; i < size; ++i) {
+    for (std::size_t i = 0; i < rows.points.size(); ++i) {
       const TetHandle t = rows.tets[i];
+      const TetVertices& v = mesh_.vertices(t);
       const auto& twins = mesh_.neighbours(t);
-      std::array<const Point*, 4> beyond;
       for (unsigned f = 0; f < 4; ++f) {
-        const bool is_outside = twins[f].is_outside();
-        const HalfFace other = is_outside ? HalfFace(t, f) : twins[f];
-        const bool counts = subject_.has_face == nullptr || (*subject_.has_face)(HalfFace(t, f));
-        const bool is_inner = counts && t < other.tet();
-        beyond[f] = &mesh_.point(mesh_.vertices(other.tet())[other.face()]);
-        surroundings_.kinds[f][i / kWideLanes][i % kWideLanes] =
-            !counts      ? Surroundings::kElsewhere
-            : is_outside ? Surroundings::kBoundary
-            : is_inner   ? Surroundings::kInner
-                         : Surroundings::kElsewhere;
-        inner += is_inner ? 1 : 0;
-        boundary += counts && is_outside ? 1 : 0;
+        const bool is_inner = !twins[f].is_outside();
+        if (is_inner && twins[f].tet() < t) continue;
+        if (subject_.has_face != nullptr && !(*subject_.has_face)(HalfFace(t, f))) continue;
+        const VertexHandle beyond =
+            is_inner ? mesh_.vertices(twins[f].tet())[twins[f].face()] : v[f];
+        const auto& [j, k, l] = kFaceVertices[f];
+        face_rows_.add({&mesh_.point(v[f]), &mesh_.point(v[j]), &mesh_.point(v[k]),
+                        &mesh_.point(v[l]), &mesh_.point(beyond)},
+                       is_inner);
+        part_.of[at(Ruler::non_orthogonality)].count += is_inner ? 1 : 0;
+        ++part_.of[at(Ruler::skewness)].count;
+        if (face_rows_.points.is_full()) finish_faces();
       }
-      surroundings_.points.add(beyond);
     }
-    surroundings_.pad();
-    part_.of[at(Ruler::non_orthogonality)].count += inner;
-    part_.of[at(Ruler::skewness)].count += inner + boundary;
+  }
+  void finish_faces() {
+    if (face_rows_.points.size() == 0) return;
+    face_rows_.points.pad();
+    measure_faces(face_rows_, faces_, faces_above_70_);
+    sift(faces_, kTetRulers);
+    count(faces_, kTetRulers, face_rows_.points.size());
+    face_rows_.points.clear();
   }
 
   const TetMesh& mesh_;
   RulerHistograms* counts_;
   Subject subject_;
-  Surroundings surroundings_;
+  FaceRows face_rows_;
   Tally<kTetRulers> tets_;
   Tally<kFaceRulers> faces_;
   FacesAbove faces_above_70_;
@@ -494,11 +487,11 @@ RulerFigures step_figures(const P1Diagonals& diagonals) {
 
 }  // namespace
 
-MeshRulers measure_rulers(const TetMesh& mesh) {
-  return measure_rulers(mesh, p1_diagonals(mesh));
+MeshRulers measure_rulers(const TetMesh& mesh, CgSteps steps) {
+  return measure_rulers(mesh, p1_diagonals(mesh), steps);
 }
 
-MeshRulers measure_rulers(const TetMesh& mesh, const P1Diagonals& diagonals) {
+MeshRulers measure_rulers(const TetMesh& mesh, const P1Diagonals& diagonals, CgSteps steps) {
   Limits limits = estimate_limits(mesh);
   auto parts = survey(mesh, limits, 1);
   MeshRulers result;
@@ -518,7 +511,7 @@ MeshRulers measure_rulers(const TetMesh& mesh, const P1Diagonals& diagonals) {
     result.figures[r] = *figures;
   }
   result.figures[at(Ruler::step)] = step_figures(diagonals);
-  result.cg_steps = estimate_cg_steps(mesh, diagonals);
+  result.cg_steps = steps == CgSteps::estimated ? estimate_cg_steps(mesh, diagonals) : kNothing;
   result.work = static_cast<double>(mesh.tet_count()) * result.cg_steps;
   const Scale& scale = mesh.scale();
   result.shortest_edge = scale.to_file(result.shortest_edge);

@@ -65,6 +65,7 @@ class SharesOfTets {
  public:
   explicit SharesOfTets(const TetMesh& mesh) : mesh_(mesh), ranges_(mesh) {
     const auto threads = static_cast<std::size_t>(tbb::this_task_arena::max_concurrency());
+    if (threads == 1) return;  // needs no memory of shares
     at_once_ = std::min(4 * threads * kTetsOfChunk, mesh.tet_slots());
     shares_.resize(at_once_);
     sets_.resize(chunk_count(at_once_, kOfBlock));
@@ -74,6 +75,7 @@ class SharesOfTets {
   /// vertices of all tets, with the N numbers of the tet.
   template <class Compute, class Add>
   void visit(const Compute& compute, const Add& add) {
+    if (at_once_ == 0) return visit_alone(compute, add);
     for (std::size_t first = 0; first < mesh_.tet_slots(); first += at_once_) {
       const std::size_t size = std::min(at_once_, mesh_.tet_slots() - first);
       for_chunks(
@@ -97,6 +99,25 @@ class SharesOfTets {
 
  private:
   static constexpr std::size_t kOfBlock = PointRows<4>::kMost;
+
+  /// On one thread: the same sums in the same order.
+  template <class Compute, class Add>
+  void visit_alone(const Compute& compute, const Add& add) const {
+    for (std::size_t begin = 0; begin < mesh_.tet_slots(); begin += kOfBlock) {
+      const std::size_t end = std::min(mesh_.tet_slots(), begin + kOfBlock);
+      visit_rows(mesh_, begin, end, 1, [&](const TetRows& rows) {
+        Shares<N> shares;
+        compute(begin / kTetsOfChunk, rows, shares);
+        for (std::size_t i = 0; i < rows.points.size(); ++i) {
+          const TetVertices& v = mesh_.vertices(rows.tets[i]);
+          std::array<double, N> share;
+          for (std::size_t k = 0; k < N; ++k)
+            share[k] = shares[i / kWideLanes].of[k][i % kWideLanes];
+          for (std::size_t k = 0; k < 4; ++k) add(v[k].index(), k, share);
+        }
+      });
+    }
+  }
 
   template <class Compute>
   void compute_block(std::size_t first, std::size_t begin, std::size_t end,
@@ -132,7 +153,7 @@ class SharesOfTets {
 
   const TetMesh& mesh_;
   VertexRanges ranges_;
-  std::size_t at_once_;                        // slots, in whole chunks
+  std::size_t at_once_ = 0;                    // slots, in whole chunks; 0: one thread
   std::vector<std::array<double, N>> shares_;  // by slot
   std::vector<VertexRanges::Set> sets_;        // by block
 };

@@ -99,3 +99,22 @@ TEST_CASE("who asks for no portrait gets the same mesh") {
   CHECK(plain.arrays().tets == drawn.mesh.arrays().tets);
   CHECK(plain.arrays().points == drawn.mesh.arrays().points);
 }
+
+TEST_CASE("who reads only what a run is judged by gets the same mesh and the same judgement") {
+  const Drawn all({}, "two_materials.mesh");
+  Mesh mesh = load(asset("two_materials.mesh"));
+  std::unique_ptr<TraceRecorder> trace;
+  const Result result = face::improve(mesh, {}, trace, nullptr, face::Figures::judging);
+  CHECK(mesh.arrays().tets == all.mesh.arrays().tets);
+  CHECK(mesh.arrays().points == all.mesh.arrays().points);
+  CHECK(result.worse_than_before() == all.result.worse_than_before());
+  REQUIRE((result.rulers_before && result.rulers_after));
+  for (const Ruler ruler :
+       {Ruler::mean_ratio, Ruler::radius_ratio, Ruler::edge_ratio, Ruler::step}) {
+    CHECK((*result.rulers_after)[ruler].worst == (*all.result.rulers_after)[ruler].worst);
+    CHECK((*result.rulers_after)[ruler].mean == (*all.result.rulers_after)[ruler].mean);
+  }
+  CHECK(result.rulers_after->faces_above_70 == all.result.rulers_after->faces_above_70);
+  CHECK(all.result.size_drift);
+  CHECK(!result.size_drift);
+}

@@ -350,6 +350,21 @@ TEST_CASE("rulers are the same, bit for bit, for every number of threads") {
   CHECK(all_of(5) == expected);
 }
 
+TEST_CASE("without CG steps all other rulers are as with them") {
+  const TetMesh mesh(test::kuhn_cube(6, 0.3, 7));
+  const MeshRulers all = measure_rulers(mesh);
+  const MeshRulers some = measure_rulers(mesh, CgSteps::left_out);
+  CHECK(all.work > 0);
+  CHECK((std::isnan(some.cg_steps) && std::isnan(some.work)));
+  for (std::size_t r = 0; r < kRulerCount; ++r) {
+    CHECK(some.figures[r].worst == all.figures[r].worst);
+    CHECK(some.figures[r].one_percent == all.figures[r].one_percent);
+    CHECK(some.figures[r].mean == all.figures[r].mean);
+  }
+  CHECK(some.faces_above_70 == all.faces_above_70);
+  CHECK(some.inner_faces == all.inner_faces);
+}
+
 TEST_CASE("an empty mesh has rulers of zero") {
   const MeshRulers rulers = measure_rulers(TetMesh());
   for (const RulerFigures& of : rulers.figures) {
