@@ -49,6 +49,11 @@ void check_extension(const std::filesystem::path& file, std::span<const std::str
   const std::string given = file.extension().string();
   if (std::find(valid.begin(), valid.end(), lower_extension(file)) != valid.end()) return;
   const std::string names = fmt::format("{}", fmt::join(valid, ", "));
+  std::error_code ignored;
+  if (std::filesystem::is_directory(file, ignored)) {
+    throw UsageError(fmt::format("{} is a folder: expected a file, {}{}", file.string(),
+                                 valid.size() > 1 ? "one of " : "", names));
+  }
   throw UsageError(fmt::format("{}: the extension '{}' is not known here: expected {}{}{}",
                                file.string(), given, valid.size() > 1 ? "one of " : "", names,
                                guess_of(given, names)));

@@ -125,6 +125,11 @@ class CommandLine(unittest.TestCase):
         wrong = self.run_program("improve", TWO, "-o", "a.mesh", "--dry-run", "--memory", "1G")
         self.assertEqual(wrong.returncode, 2)
 
+    def test_a_folder_in_place_of_a_file_is_called_one(self) -> None:
+        done = self.run_program("improve", TWO, "-o", self.folder)
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("is a folder: expected a file, one of .mesh", done.stderr)
+
     def test_a_mistyped_subcommand_is_told_before_its_options(self) -> None:
         done = self.run_program("imrpove", TWO, "-o", "a.mesh")
         self.assertEqual(done.returncode, 2)
