@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Reads CGNS files. A node of the tree is a group of HDF5 that says by its attribute "label" what it is; its
-// numbers are the table " data" in it.
+// Reads CGNS files. A node of the tree is a group of HDF5 that says by its attribute "label" what
+// it is; its numbers are the table " data" in it.
 #include <algorithm>
 #include <cmath>
 #include <map>

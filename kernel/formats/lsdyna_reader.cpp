@@ -2,9 +2,6 @@
 // Reads keyword files of LS-DYNA in two passes: nodes, then all that names nodes.
 #include <algorithm>
 #include <array>
-#include <cctype>
-#include <cstring>
-#include <initializer_list>
 #include <map>
 #include <optional>
 #include <string>
@@ -20,6 +17,7 @@
 #include "kernel/formats/gmsh_tags.h"
 #include "kernel/formats/input_file.h"
 #include "kernel/formats/lsdyna.h"
+#include "kernel/formats/lsdyna_deck.h"
 #include "kernel/formats/nastran_card.h"
 #include "kernel/formats/pin_remarks.h"
 
@@ -28,81 +26,28 @@ namespace {
 
 constexpr std::size_t kCardWidth = 10;  // of a field of most keywords
 
-bool starts_with_any(std::string_view text, std::initializer_list<std::string_view> beginnings) {
-  return std::any_of(beginnings.begin(), beginnings.end(),
-                     [&](std::string_view each) { return text.starts_with(each); });
-}
-
-/// Keywords whose numbers are no nodes. Of all others every whole number may be one.
-bool names_no_nodes(std::string_view keyword) {
-  if (starts_with_any(keyword, {"DATABASE_HISTORY_NODE", "DATABASE_NODAL", "CONTROL_REF",
-                                "BOUNDARY_PRESCRIBED_MOTION_NODE", "BOUNDARY_SPC_NODE"})) {
-    return false;
-  }
-  return starts_with_any(keyword, {"KEYWORD",
-                                   "END",
-                                   "TITLE",
-                                   "CONTROL_",
-                                   "DATABASE_",
-                                   "MAT_",
-                                   "SECTION_",
-                                   "PART",
-                                   "EOS_",
-                                   "HOURGLASS",
-                                   "PARAMETER",
-                                   "DEFINE_CURVE",
-                                   "DEFINE_TABLE",
-                                   "DEFINE_FUNCTION",
-                                   "INCLUDE",
-                                   "SET_PART",
-                                   "SET_SOLID",
-                                   "SET_SHELL",
-                                   "SET_BEAM",
-                                   "LOAD_BODY",
-                                   "LOAD_SEGMENT_SET",
-                                   "LOAD_NODE_SET",
-                                   "BOUNDARY_SPC_SET",
-                                   "BOUNDARY_PRESCRIBED_MOTION_SET",
-                                   "BOUNDARY_PRESCRIBED_MOTION_RIGID",
-                                   "CONTACT_",
-                                   "INITIAL_VELOCITY_GENERATION",
-                                   "INITIAL_STRESS_SOLID",
-                                   "DAMPING_",
-                                   "COMMENT",
-                                   "LOAD_GRAVITY"});
-}
-
-/// Lines from a keyword up to the next one.
-struct Block {
-  std::string keyword;  ///< in capitals, without '*'; empty: what stands before the first
-  const char* begin;
-  const char* content;  ///< behind the line of the keyword
-  const char* end;
-};
-
-class LsDynaReader {
+class LsDynaReader : LsDynaDeck {
  public:
   LsDynaReader(const InputFile& file, TetPlace* question)
-      : file_(file), question_(question), sorter_(mesh_) {}
+      : LsDynaDeck(file), question_(question), sorter_(mesh_) {}
 
   MeshData read() {
-    find_blocks();
-    for (const Block& block : blocks_) {
+    for (const LsDynaBlock& block : blocks_) {
       if (is_nodes(block)) read_nodes(block);
     }
     if (std::none_of(blocks_.begin(), blocks_.end(), is_nodes))
       file_.fail_at_line(file_.end(), "the file has no nodes: expected *NODE");
     number_nodes();
     if (std::none_of(blocks_.begin(), blocks_.end(),
-                     [](const Block& block) { return block.keyword == "END"; })) {
+                     [](const LsDynaBlock& block) { return block.keyword == "END"; })) {
       mesh_.notes.emplace_back("the deck has no *END: is the file complete?");
     }
     mesh_.deck = {"", fmt::format("{} {}", widths_.integer, widths_.real)};
-    for (const Block& block : blocks_) {
+    for (const LsDynaBlock& block : blocks_) {
       if (is_solids(block)) read_solids(block);
     }
     number_solids();
-    for (const Block& block : blocks_) read_block(block);
+    for (const LsDynaBlock& block : blocks_) read_block(block);
     name_parts();
     finish_sets();
     require_points();
@@ -113,100 +58,11 @@ class LsDynaReader {
   }
 
  private:
-  [[noreturn]] void fail(std::string_view where, std::string_view reason) const {
-    file_.fail_at_line(where.data(), reason);
-  }
-
-  // ---- Lines and fields ---------------------------------------------------------------------------
-
-  static std::string_view next_line(const char*& at, const char* end) {
-    const char* begin = at;
-    const void* newline = std::memchr(at, '\n', static_cast<std::size_t>(end - at));
-    at = newline == nullptr ? end : static_cast<const char*>(newline) + 1;
-    return {begin, static_cast<std::size_t>(at - begin)};
-  }
-  static bool is_comment(std::string_view line) {
-    return line.starts_with('$') || trimmed_field(line).empty();
-  }
-
-  void find_blocks() {
-    if (file_.size() == 0) {
-      file_.fail_at_line(file_.begin(), "the file is empty: expected *KEYWORD and *NODE");
-    }
-    const char* at = file_.begin();
-    Block block{{}, at, at, at};
-    while (at != file_.end()) {
-      const char* begin = at;
-      const std::string_view line = next_line(at, file_.end());
-      if (!line.starts_with('*')) continue;
-      block.end = begin;
-      blocks_.push_back(block);
-      std::string keyword(trimmed_field(line.substr(1)));
-      for (char& c : keyword) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
-      if (keyword.starts_with("KEYWORD")) read_options(keyword);
-      const std::size_t blank = keyword.find_first_of(" \t");
-      const std::string_view rest =
-          blank == std::string::npos ? "" : trimmed_field(std::string_view(keyword).substr(blank));
-      if (rest == "+" || rest == "%")
-        fail(line, "long fields of one keyword cannot be read: expected LONG=Y in *KEYWORD");
-      block = {keyword.substr(0, blank), begin, at, at};
-    }
-    block.end = file_.end();
-    blocks_.push_back(block);
-    if (blocks_.size() == 1) {
-      file_.fail_at_line(file_.begin(), "the file has no keywords: expected *KEYWORD and *NODE");
-    }
-  }
-
-  void read_options(std::string_view line) {
-    if (line.find("LONG=Y") != std::string_view::npos) widths_ = {20, 20};
-    if (line.find("I10=Y") != std::string_view::npos) widths_ = {10, 16};
-  }
-
-  /// Between commas; of fixed width; between blanks, where a field would hold two words.
-  void split(std::string_view line, std::size_t first, std::size_t width, std::size_t reals = 0) {
-    fields_.clear();
-    line = line.substr(0, line.find_last_not_of("\r\n") + 1);
-    if (line.find(',') != std::string_view::npos) {
-      for (std::size_t at = 0; at <= line.size();) {
-        const std::size_t comma = std::min(line.find(',', at), line.size());
-        fields_.push_back(trimmed_field(line.substr(at, comma - at)));
-        at = comma + 1;
-      }
-      return;
-    }
-    bool is_by_words = line.find('\t') != std::string_view::npos;
-    for (std::size_t at = 0, k = 0; at < line.size() && !is_by_words; ++k) {
-      const std::size_t size = k == 0 ? first : k <= reals ? widths_.real : width;
-      fields_.push_back(trimmed_field(line.substr(at, size)));
-      is_by_words = fields_.back().find(' ') != std::string_view::npos;
-      at += size;
-    }
-    if (!is_by_words) return;
-    fields_.clear();
-    for (std::size_t at = line.find_first_not_of(" \t"); at != std::string_view::npos;) {
-      const std::size_t blank = std::min(line.find_first_of(" \t", at), line.size());
-      fields_.push_back(line.substr(at, blank - at));
-      at = line.find_first_not_of(" \t", blank);
-    }
-  }
-  std::string_view field(std::size_t i) const { return i < fields_.size() ? fields_[i] : ""; }
-
-  std::int64_t integer(std::size_t i, std::string_view line, std::string_view what,
-                       std::int64_t low) const {
-    std::int64_t value = 0;
-    if (!nastran_integer(field(i), value)) {
-      fail(line, fmt::format("{} is not an integer: expected {}", in_quotes(field(i)), what));
-    }
-    if (value < low) fail(line, fmt::format("'{}' is out of range: expected {}", value, what));
-    return value;
-  }
-
   // ---- Nodes --------------------------------------------------------------------------------------
 
-  static bool is_nodes(const Block& block) { return block.keyword == "NODE"; }
+  static bool is_nodes(const LsDynaBlock& block) { return block.keyword == "NODE"; }
 
-  void read_nodes(const Block& block) {
+  void read_nodes(const LsDynaBlock& block) {
     for (const char* at = block.content; at != block.end;) {
       const std::string_view line = next_line(at, block.end);
       if (is_comment(line)) continue;
@@ -272,10 +128,10 @@ class LsDynaReader {
 
   // ---- Solids -------------------------------------------------------------------------------------
 
-  static bool is_solids(const Block& block) { return block.keyword == "ELEMENT_SOLID"; }
+  static bool is_solids(const LsDynaBlock& block) { return block.keyword == "ELEMENT_SOLID"; }
 
   /// Numbers of one element: of a line, or two where the first has but two or ends in a comma.
-  void read_solids(const Block& block) {
+  void read_solids(const LsDynaBlock& block) {
     std::vector<std::int64_t> numbers;
     for (const char* at = block.content; at != block.end;) {
       std::string_view line = next_line(at, block.end);
@@ -384,7 +240,7 @@ class LsDynaReader {
     mesh_.deck.back() += lines_of(text);
   }
 
-  void read_block(const Block& block) {
+  void read_block(const LsDynaBlock& block) {
     const std::string_view whole(block.begin, static_cast<std::size_t>(block.end - block.begin));
     const std::string& keyword = block.keyword;
     if (is_nodes(block)) return place(block, lsdyna_nodes, has_nodes_);
@@ -417,7 +273,7 @@ class LsDynaReader {
   }
 
   /// Nodes and solids stand where the first of them stood; comments stay.
-  void place(const Block& block, LsDynaPiece piece, bool& is_there) {
+  void place(const LsDynaBlock& block, LsDynaPiece piece, bool& is_there) {
     std::string comments;
     for (const char* at = block.content; at != block.end;) {
       const std::string_view line = next_line(at, block.end);
@@ -428,22 +284,12 @@ class LsDynaReader {
     mesh_.deck.push_back(static_cast<char>(piece) + comments);
   }
 
-  /// Lines that are no comments.
-  std::vector<std::string_view> lines(const Block& block) const {
-    std::vector<std::string_view> found;
-    for (const char* at = block.content; at != block.end;) {
-      const std::string_view line = next_line(at, block.end);
-      if (!is_comment(line)) found.push_back(line);
-    }
-    return found;
-  }
-
   struct SetHead {
     ElementSet set;
     std::vector<std::string_view> members;  ///< lines
   };
   /// Title, if there is one, then the card with the number.
-  SetHead read_head(const Block& block) {
+  SetHead read_head(const LsDynaBlock& block) {
     SetHead head;
     head.members = lines(block);
     std::size_t lines_of_head = 1;
@@ -465,7 +311,7 @@ class LsDynaReader {
 
   /// take(first, last) of each member or range.
   template <class Take>
-  void each_member(const Block& block, const std::vector<std::string_view>& lines,
+  void each_member(const LsDynaBlock& block, const std::vector<std::string_view>& lines,
                    const Take& take) {
     const bool are_ranges = block.keyword.find("GENERATE") != std::string::npos;
     for (const std::string_view line : lines) {
@@ -486,7 +332,7 @@ class LsDynaReader {
     return static_cast<std::size_t>(std::lower_bound(all.begin(), all.end(), number) - all.begin());
   }
 
-  void read_solid_set(const Block& block) {
+  void read_solid_set(const LsDynaBlock& block) {
     SetHead head = read_head(block);
     std::size_t lost = 0;
     std::vector<std::pair<std::size_t, std::size_t>> ranges;
@@ -513,7 +359,7 @@ class LsDynaReader {
   }
 
   /// Where it fills a volume it is written anew; other members stay.
-  void read_node_set(const Block& block) {
+  void read_node_set(const LsDynaBlock& block) {
     SetHead head = read_head(block);
     std::size_t lost = 0;
     std::vector<std::pair<std::size_t, std::size_t>> ranges;
@@ -544,7 +390,7 @@ class LsDynaReader {
   }
 
   /// Leaves room for its members in the deck.
-  void place_set(const Block& block, SetHead head, LsDynaPiece piece) {
+  void place_set(const LsDynaBlock& block, SetHead head, LsDynaPiece piece) {
     const char* members = head.members.empty() ? block.end : head.members[0].data();
     std::string lines(block.begin, members);
     if (!lines.ends_with('\n')) lines += '\n';
@@ -557,7 +403,7 @@ class LsDynaReader {
   }
 
   /// Triangles and quadrilaterals that stay in the deck. Of shells with further cards none is read.
-  void read_faces(const Block& block) {
+  void read_faces(const LsDynaBlock& block) {
     const bool is_set = block.keyword.starts_with("SET_");
     const bool is_known = is_set ? block.keyword.find("GENERAL") == std::string::npos
                                  : block.keyword == "ELEMENT_SHELL";
@@ -600,7 +446,7 @@ class LsDynaReader {
     return true;
   }
 
-  void read_parts(const Block& block) {
+  void read_parts(const LsDynaBlock& block) {
     const std::vector<std::string_view> all = lines(block);
     for (std::size_t i = 0; i + 1 < all.size(); i += 2) {
       split(all[i + 1], kCardWidth, kCardWidth);
@@ -668,7 +514,7 @@ class LsDynaReader {
     if (begin < end) pins.ranges.emplace_back(begin, end);
   }
 
-  void pin(const Block& block) {
+  void pin(const LsDynaBlock& block) {
     Pins& pins = pins_[block.keyword];
     if (pins.first == nullptr) pins.first = block.begin;
     ++pins.blocks;
@@ -707,13 +553,9 @@ class LsDynaReader {
     mesh_.deck[0] = pin_remarks_text(remarks, "keywords");
   }
 
-  const InputFile& file_;
   TetPlace* question_;
   MeshData mesh_;
   ElementSorter sorter_;
-  LsDynaWidths widths_;
-  std::vector<Block> blocks_;
-  std::vector<std::string_view> fields_;
   std::vector<const char*> places_;  // of nodes
   std::vector<std::string> points_of_deck_;
   std::vector<std::int64_t> held_;  // numbers of nodes with constraints

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Writes MED files.
 #include <algorithm>
-#include <compare>
 #include <map>
 #include <memory>
 #include <span>
@@ -16,12 +15,10 @@
 
 #include "kernel/formats/element_rows.h"
 #include "kernel/formats/hdf5_file.h"
-#include "kernel/formats/inp_sets.h"
 #include "kernel/formats/med.h"
+#include "kernel/formats/med_families.h"
 #include "kernel/formats/output_file.h"
-#include "kernel/formats/set_chains.h"
 #include "kernel/formats/unique_names.h"
-#include "kernel/printable.h"
 
 namespace tetmend::formats {
 namespace {
@@ -37,121 +34,6 @@ std::string path_name(std::string name) {
   if (name.empty() || name == ".") name = "unnamed";
   return name.substr(0, kMedName);
 }
-
-/// What elements have in common.
-struct FamilyKey {
-  int dimension = 0;
-  bool has_part = false;
-  Label part = 0;
-  Label label = 0;
-  std::uint32_t chain = 0;
-  friend auto operator<=>(const FamilyKey&, const FamilyKey&) = default;
-};
-
-/// Which points or elements have which groups in common, and what these are called.
-class MedFamilies {
- public:
-  /// `data` may be null.
-  MedFamilies(const MeshData* data, const MedRemarks& remarks)
-      : data_(data), remarks_(remarks), is_med_(data != nullptr && data->variant == kMed) {}
-
-  /// In which groups that name their members these points or elements are.
-  std::vector<std::uint32_t> chains(int dimension, std::size_t count) {
-    std::vector<std::uint32_t> chain_of;
-    const std::uint32_t none = chains_.begin();
-    for (std::uint32_t g = 0; data_ != nullptr && g < data_->groups.size(); ++g) {
-      const Group& group = data_->groups[g];
-      if (group.dimension != dimension || group.members.empty()) continue;
-      chain_of.resize(count, none);
-      for (const std::uint32_t member : group.members) {
-        std::uint32_t& chain = chain_of[member];
-        if (chain == none || chains_.last(chain) != g) chain = chains_.with(chain, g);
-      }
-    }
-    if (chain_of.empty()) chain_of.resize(count, none);
-    return chain_of;
-  }
-
-  /// The place of a family, which gets its number in the end.
-  std::uint32_t place_of(const FamilyKey& key) {
-    if (keys_.empty() || last_ != key) {
-      const auto [at, is_new] = place_.try_emplace(key, static_cast<std::uint32_t>(keys_.size()));
-      if (is_new) keys_.push_back(key);
-      last_ = key;
-      last_place_ = at->second;
-    }
-    return last_place_;
-  }
-
-  /// Numbers and names of all; those of points are above 0, those of elements below.
-  struct Family {
-    std::int32_t number = 0;
-    std::vector<std::string> groups;
-  };
-  std::vector<Family> finish() {
-    std::vector<Family> families(keys_.size());
-    std::map<std::int32_t, std::vector<std::string>> taken;
-    for (std::size_t i = 0; i < keys_.size(); ++i) {
-      const FamilyKey& key = keys_[i];
-      families[i].groups = groups_of(key);
-      if (!is_med_ || !key.has_part || key.part >= 0) continue;
-      const auto [at, is_new] = taken.try_emplace(key.part, families[i].groups);
-      if (at->second == families[i].groups) families[i].number = key.part;
-    }
-    std::int32_t below = -1;
-    std::int32_t above = 1;
-    for (std::size_t i = 0; i < keys_.size(); ++i) {
-      const bool is_nothing = families[i].groups.empty() && keys_[i].label == 0;
-      if (families[i].number != 0 || is_nothing) continue;
-      while (taken.contains(below)) --below;
-      families[i].number = keys_[i].dimension == 0 ? above++ : below--;
-    }
-    return families;
-  }
-
- private:
-  std::vector<std::string> groups_of(const FamilyKey& key) {
-    std::vector<std::string> names;
-    bool is_named = false;
-    for (std::uint32_t g = 0; data_ != nullptr && g < data_->groups.size(); ++g) {
-      const Group& group = data_->groups[g];
-      if (group.dimension != key.dimension) continue;
-      const bool is_label = key.label != 0 && group.number == key.label;
-      const bool has_part = key.has_part && std::find(group.parts.begin(), group.parts.end(),
-                                                      key.part) != group.parts.end();
-      const bool is_all = is_label && group.parts.empty() && group.members.empty();
-      if (has_part || is_all || (!group.members.empty() && chains_.has(key.chain, g))) {
-        names.push_back(cut(group.name.empty() ? label_name(group.number) : group.name));
-      }
-      is_named = is_named || is_label;
-    }
-    const bool is_bare =
-        is_med_ && key.has_part &&
-        remarks_.contains(med_remark_key("bare family", fmt::format("{}", key.part)));
-    if (key.label != 0 && !(is_named && key.dimension > 0) && !is_bare)
-      names.push_back(label_name(key.label));
-    return names;
-  }
-
-  /// Names of 80 bytes at most that are still different.
-  std::string cut(const std::string& name) {
-    if (is_med_name(name)) return name;
-    const auto [at, is_new] = cut_.try_emplace(name);
-    if (is_new) at->second = cut_names_.make(name.substr(0, kMedGroupName - 4));
-    return at->second;
-  }
-
-  const MeshData* data_;
-  const MedRemarks& remarks_;
-  bool is_med_;
-  SetChains chains_;
-  std::vector<FamilyKey> keys_;
-  std::map<FamilyKey, std::uint32_t> place_;
-  FamilyKey last_;
-  std::uint32_t last_place_ = 0;
-  std::map<std::string, std::string> cut_;
-  UniqueNames cut_names_;
-};
 
 /// New numbers above those that are there, all of which are different.
 class FillNumbers {
@@ -458,61 +340,6 @@ class Writer {
 };
 
 }  // namespace
-
-bool is_med_name(std::string_view name) {
-  return name.size() <= kMedGroupName && !name.ends_with(' ');
-}
-
-std::string med_remark_key(std::string_view what, std::string_view about) {
-  return about.empty() ? std::string(what) : fmt::format("{} of {}", what, about);
-}
-
-MedRemarks med_remarks(const MeshData& mesh) {
-  MedRemarks remarks;
-  if (mesh.variant != kMed) return remarks;
-  for (const std::string& piece : mesh.deck) {
-    const std::size_t end = piece.find('\0');
-    if (end != std::string::npos) remarks[piece.substr(0, end)] = piece.substr(end + 1);
-  }
-  return remarks;
-}
-
-std::size_t med_remarks_to_miss(const MeshData& mesh) {
-  std::size_t count = 0;
-  for (const auto& [what, text] : med_remarks(mesh)) {
-    const bool is_form =
-        what == "mesh" || what == "NOM" || what == "order" || what.starts_with("bare family");
-    const bool is_blank = text.find_first_not_of(' ') == std::string::npos;
-    count += is_form || is_blank ? 0 : 1;
-  }
-  return count;
-}
-
-std::vector<std::string> not_in_med(const std::filesystem::path&, const MeshData& mesh) {
-  std::vector<std::string> notes;
-  const auto look = [&](const std::vector<DataArray>& arrays) {
-    for (const DataArray& array : arrays) {
-      const bool is_kept =
-          array.name.size() <= kMedName && array.name.find('/') == std::string::npos;
-      if (!is_kept)
-        notes.push_back(
-            fmt::format("the name of the array '{}' is not kept as it is: .med has other rules",
-                        printable(array.name)));
-    }
-  };
-  look(mesh.point_data);
-  look(mesh.tet_data);
-  std::map<int, std::size_t> lists;
-  for (const OtherElements& others : mesh.other_elements) {
-    if (!others.data.empty() && ++lists[others.vtk_type] == 2) {
-      notes.push_back(
-          fmt::format("arrays of elements of VTK's type {} are not kept: .med has one "
-                      "list of them",
-                      others.vtk_type));
-    }
-  }
-  return notes;
-}
 
 void write_med(const std::filesystem::path& file, const MeshView& mesh) {
   Writer(file, mesh).write();
