@@ -233,7 +233,7 @@ void check_figure(const TraceOptions& options) {
     if (!options.look.empty()) throw UsageError("--look is for --figure shell");
     return;
   }
-  if (options.output.empty()) throw UsageError("--figure needs -o, a .svg or .pdf file");
+  if (options.output.empty()) throw UsageError("--figure needs -o, a .svg, .pdf or .tex file");
   explain::FigureKind kind{};
   try {
     kind = explain::find_figure_kind(options.figure);
@@ -322,9 +322,10 @@ int run_trace(const TraceOptions& options) {
 }
 
 void add_figure_options(CLI::App& command, CLI::Option_group& what, TraceOptions& options) {
-  what.add_option("--figure", options.figure,
-                  "A figure for papers, -o x.svg or x.pdf: the ring of a\ncall, its tree, the "
-                  "timeline or the isolated shell")
+  what.add_option(
+          "--figure", options.figure,
+          "A figure for papers, -o x.svg, x.pdf or x.tex: the ring of a\ncall, its tree, the "
+          "timeline or the isolated shell")
       ->type_name("KIND");
   command.add_option("--call", options.call, "The call of a figure; a timeline may be without")
       ->type_name("CALL");

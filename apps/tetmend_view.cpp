@@ -255,7 +255,8 @@ void add_options(CLI::App& app, Options& options) {
                "distance at each place");
   app.add_option("--render", options.picture, "Write a picture (.png) and exit; needs no display")
       ->type_name("FILE.png");
-  app.add_option("--video", options.video, "Write a video of a trace (.mp4) by ffmpeg and exit")
+  app.add_option("--video", options.video,
+                 "Write a video of a trace (.mp4, .gif) by ffmpeg and exit")
       ->type_name("FILE.mp4");
   app.add_option("--frames", options.frames,
                  "Of a video: a picture after so many events, up to\nso many, in steps; all of the "

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Drawings as vector files: SVG 1.1 and PDF 1.4. Text stays text. The same drawing is the same bytes.
+// Drawings as vector files: SVG 1.1, PDF 1.4, TikZ. Text stays text. The same drawing is the same bytes.
 #pragma once
 
 #include <filesystem>
@@ -15,7 +15,10 @@ std::string svg_of(const Drawing& drawing);
 /// @throws std::bad_alloc
 std::string pdf_of(const Drawing& drawing);
 
-/// @throws Error when the name does not end in .svg or .pdf
+/// A tikzpicture, for a document of LaTeX to read; its fonts are those of the document.
+std::string tikz_of(const Drawing& drawing);
+
+/// @throws Error when the name does not end in .svg, .pdf or .tex
 void check_drawing_name(const std::filesystem::path& file);
 
 /// The file appears under its name only when it is complete.

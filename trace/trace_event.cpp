@@ -285,6 +285,15 @@ void check_labels(const TraceEvent& event) {
   throw ByteReader::Damage("a cavity with more or fewer labels than tets");
 }
 
+QualityIndicators get_indicators(ByteReader& in) {
+  QualityIndicators now;
+  now.q_worst = in.get_raw<double>();
+  now.n_bad = in.get();
+  now.q_aver = in.get_raw<double>();
+  now.n_needles = in.get();
+  return now;
+}
+
 }  // namespace
 
 void EventDecoder::next(TraceEvent& event) {
@@ -301,10 +310,7 @@ void EventDecoder::next(TraceEvent& event) {
       event.number = in_.get32();
       break;
     case EventKind::pass_ends:
-      event.now.q_worst = in_.get_raw<double>();
-      event.now.n_bad = in_.get();
-      event.now.q_aver = in_.get_raw<double>();
-      event.now.n_needles = in_.get();
+      event.now = get_indicators(in_);
       break;
     case EventKind::visit_begins:
       get_vertices(event);

@@ -112,7 +112,7 @@ class Figures(unittest.TestCase):
         out = Path(FOLDER.name) / "wrong.svg"
         for status, arguments, words in (
                 (2, ["--figure", "ring", "-o", out], "--figure ring needs --call"),
-                (2, ["--figure", "ring", "--call", "0"], "--figure needs -o, a .svg or .pdf file"),
+                (2, ["--figure", "ring", "--call", "0"], "--figure needs -o, a .svg, .pdf or .tex file"),
                 (2, ["--call", "0"], "--call is for --figure"),
                 (2, ["--figure", "tree", "--call", "0", "--look", "10,20", "-o", out], "--look is for --figure shell"),
                 (2, ["--figure", "pie", "--call", "0", "-o", out], "expected one of ring, tree, timeline, shell"),

@@ -105,6 +105,24 @@ TEST_CASE("a file is written whole under .svg or .pdf, and under no other name")
   CHECK(test::read_text(folder / "x.svg") == svg_of(example()));
   CHECK(test::read_text(folder / "x.pdf") == pdf_of(example()));
   CHECK_THROWS_WITH_AS(write_drawing(folder / "x.gif", example()),
-                       doctest::Contains("x.gif: figures are written as .svg or .pdf"), Error);
+                       doctest::Contains("x.gif: figures are written as .svg, .pdf or .tex"),
+                       Error);
   CHECK(folder.entries() == 2);
+}
+
+TEST_CASE("a drawing is a tikzpicture, and what TeX would take for a command is text") {
+  Drawing drawing;
+  drawing.width = 40;
+  drawing.height = 30;
+  drawing.title = "ring";
+  drawing.add(Area{{{0, 0}, {10, 0}, {10, 10}}, Colour{255, 0, 0, 51}, Pen{kBlack, 1, true}});
+  drawing.add(Dot{{5, 5}, 2, kBlack});
+  drawing.add(Text{{20, 20}, "p_1 & 50 % {\\x}", 8});
+  const std::string text = tikz_of(drawing);
+  CHECK(text.starts_with("% ring\n"));
+  CHECK(text.find("\\begin{tikzpicture}[x=1bp,y=-1bp]\n") != std::string::npos);
+  CHECK(text.find("fill={rgb,255:red,255;green,0;blue,0},fill opacity=0.20") != std::string::npos);
+  CHECK(text.find("(0.00,0.00) -- (10.00,0.00) -- (10.00,10.00) -- cycle;") != std::string::npos);
+  CHECK(text.find("{p\\_1 \\& 50 \\% \\{\\textbackslash{}x\\}}") != std::string::npos);
+  CHECK(text.ends_with("\\end{tikzpicture}\n"));
 }

@@ -114,7 +114,7 @@ json frames(Session& s, const json& a) {
   const FrameRange range = frame_range(
       {fields.whole("from"), fields.whole("to"), fields.whole("every")}, debugger.end());
   const std::string file = fields.text("file");
-  if (file.ends_with(".mp4")) {
+  if (file.ends_with(".mp4") || file.ends_with(".gif")) {
     write_video(s, range, file);
   } else {
     write_frames(s, range, file);
@@ -143,14 +143,16 @@ constexpr std::string_view kFile = "File";
 constexpr std::string_view kView = "View";
 
 constexpr std::array kFigureCommands = {
-    Command{"figure", "", kFile, "figure{what = \"ring\", file = \"FILE.svg\", call = CALL}",
-            "Write the ring, tree, timeline or shell of a call, or of the one at hand, as .svg or "
-            ".pdf; the menu all of them as tetmend-ring.svg, ...",
-            &figure},
-    Command{"frames", "", "", "frames{from = N, to = N, every = N, file = \"f-%04d.png\"}",
-            "Write pictures of a range of events of a trace, or a video, x.mp4; the result is "
-            "their number",
-            &frames},
+    Command{
+        "figure", "", kFile, "figure{what = \"ring\", file = \"FILE.svg\", call = CALL}",
+        "Write the ring, tree, timeline or shell of a call, or of the one at hand, as .svg, .pdf "
+        "or .tex; the menu all of them as tetmend-ring.svg, ...",
+        &figure},
+    Command{
+        "frames", "", "", "frames{from = N, to = N, every = N, file = \"f-%04d.png\"}",
+        "Write pictures of a range of events of a trace, or a video, x.mp4 or x.gif; the result is "
+        "their number",
+        &frames},
     Command{"colour_bar", "", kView, "colour_bar()",
             "A colour bar with the numbers of the measure on or off; of regions, their colours",
             &toggle<&ViewSettings::colour_bar>},

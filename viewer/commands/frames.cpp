@@ -61,37 +61,41 @@ void for_each_frame(Session& session, const FrameRange& range,
 }
 
 std::vector<std::string> ffmpeg_command(const Image& first, unsigned frames_per_second,
-                                        const std::filesystem::path& file) {
-  // Players want even sizes.
-  return {"ffmpeg",
-          "-hide_banner",
-          "-loglevel",
-          "error",
-          "-y",
-          "-f",
-          "rawvideo",
-          "-pix_fmt",
-          "rgba",
-          "-video_size",
-          fmt::format("{}x{}", first.width, first.height),
-          "-framerate",
-          fmt::format("{}", frames_per_second),
-          "-i",
-          "pipe:0",
-          "-an",
-          "-c:v",
-          "libx264",
-          "-pix_fmt",
-          "yuv420p",
-          "-crf",
-          "18",
-          "-vf",
-          "pad=ceil(iw/2)*2:ceil(ih/2)*2",
-          "-movflags",
-          "+faststart",
-          "-f",
-          "mp4",
-          "file:" + file.string()};
+                                        bool is_animation, const std::filesystem::path& file) {
+  std::vector<std::string> command = {"ffmpeg",
+                                      "-hide_banner",
+                                      "-loglevel",
+                                      "error",
+                                      "-y",
+                                      "-f",
+                                      "rawvideo",
+                                      "-pix_fmt",
+                                      "rgba",
+                                      "-video_size",
+                                      fmt::format("{}x{}", first.width, first.height),
+                                      "-framerate",
+                                      fmt::format("{}", frames_per_second),
+                                      "-i",
+                                      "pipe:0",
+                                      "-an"};
+  const std::vector<std::string> film = {"-c:v",
+                                         "libx264",
+                                         "-pix_fmt",
+                                         "yuv420p",
+                                         "-crf",
+                                         "18",
+                                         "-vf",  // players want even sizes
+                                         "pad=ceil(iw/2)*2:ceil(ih/2)*2",
+                                         "-movflags",
+                                         "+faststart",
+                                         "-f",
+                                         "mp4"};
+  const std::vector<std::string> animation = {
+      "-vf", "split[a][b];[a]palettegen[p];[b][p]paletteuse=dither=none", "-f", "gif"};
+  const auto& how = is_animation ? animation : film;
+  command.insert(command.end(), how.begin(), how.end());
+  command.push_back("file:" + file.string());
+  return command;
 }
 
 [[noreturn]] void fail_start(const std::filesystem::path& file, int error) {
@@ -161,15 +165,16 @@ void write_frames(Session& session, const FrameRange& range, const std::string& 
 
 void write_video(Session& session, const FrameRange& range, const std::filesystem::path& file,
                  unsigned frames_per_second) {
-  if (file.extension() != ".mp4") {
-    throw Error(fmt::format("{}: videos are written as .mp4", file.string()));
+  const bool is_animation = file.extension() == ".gif";
+  if (!is_animation && file.extension() != ".mp4") {
+    throw Error(fmt::format("{}: videos are written as .mp4 or .gif", file.string()));
   }
   formats::PendingFile out(file);
   std::unique_ptr<platform::Child> ffmpeg;
   for_each_frame(session, range, [&](std::uint64_t, const Image& image) {
     if (ffmpeg == nullptr) {
       ffmpeg = std::make_unique<platform::Child>(
-          ffmpeg_command(image, frames_per_second, out.temporary()));
+          ffmpeg_command(image, frames_per_second, is_animation, out.temporary()));
       if (ffmpeg->error() != 0) fail_start(file, ffmpeg->error());
     }
     const std::string_view bytes(reinterpret_cast<const char*>(image.pixels.data()),

@@ -38,7 +38,7 @@ std::string frame_name(const std::string& pattern, std::uint64_t number);
 void write_frames(Session& session, const FrameRange& range, const std::string& pattern);
 
 /// The same as a video in H.264, by the program ffmpeg. The file appears when it is complete.
-/// Precondition: a trace is open. @throws Error when the name does not end in .mp4, or when ffmpeg
+/// Precondition: a trace is open. @throws Error when the name does not end in .mp4 or .gif, or when ffmpeg
 /// is not there or fails, with what it says.
 void write_video(Session& session, const FrameRange& range, const std::filesystem::path& file,
                  unsigned frames_per_second = kFramesPerSecond);

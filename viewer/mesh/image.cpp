@@ -32,7 +32,7 @@ std::size_t count_red(const Image& image, int x, int y, int radius) {
 void write_png(const std::filesystem::path& file, const Image& image) {
   if (file.extension() != ".png") {
     throw Error(fmt::format(
-        "{}: pictures are written as .png, figures of a call, by figure{{}}, as .svg or .pdf",
+        "{}: pictures are written as .png, figures of a call, by figure{{}}, as .svg, .pdf or .tex",
         file.string()));
   }
   OutputFile out(file);

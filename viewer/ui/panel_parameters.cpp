@@ -25,7 +25,7 @@ const Call* call_at_hand(const Debugger& debugger) {
 }
 
 /// What follows "NAME = " in a text such as "max_level = 2, relax = true"; else `otherwise`.
-double number_in(std::string_view text, std::string_view name, double otherwise) {
+double value_in_settings(std::string_view text, std::string_view name, double otherwise) {
   const std::string key = fmt::format("{} = ", name);
   for (std::size_t at = 0; at < text.size();) {
     const std::size_t end = std::min(text.find(", ", at), text.size());
@@ -61,11 +61,12 @@ void draw_parameters_panel(Session& session) {
   const auto held = document.live.progress().held_parameters;
   ImGui::PushItemWidth(0.4F * ImGui::GetContentRegionAvail().x);
   for (const ParameterSpec& spec : (*found)->parameters) {
-    double value = number_in(settings, spec.name, spec.initial);
+    double value = value_in_settings(settings, spec.name, spec.initial);
     for (const std::string& text : held) {
       const std::string of_operator = name + ": ";
       if (text.starts_with(of_operator)) {
-        value = number_in(std::string_view(text).substr(of_operator.size()), spec.name, value);
+        value =
+            value_in_settings(std::string_view(text).substr(of_operator.size()), spec.name, value);
       }
     }
     if (const auto chosen = edit_value(spec, value)) {

@@ -201,7 +201,7 @@ TEST_CASE("the whole ring is in sight in small windows, without scrolling") {
     screenshot("{}")
     size(1300, 850)
     screenshot("{}")
-    size(1280, 720)
+    size(1300, 720)
     screenshot("{}")
   )lua",
                              picture(0), picture(1), picture(2)));
