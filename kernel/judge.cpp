@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "kernel/curved.h"
+#include "kernel/judge_limits.h"
 #include "kernel/size_field.h"
 #include "kernel/solver_rulers.h"
 #include "kernel/thin_stars.h"
@@ -402,6 +403,10 @@ double Judge::deficit_limit(double worst, double lack) const {
   // deficit() has the exponent of the default; another one is for accepts() alone.
   const bool asks = kind_ == Kind::fair && fairness_.exponent == Fairness{}.exponent;
   return asks && worst >= fairness_.desperate ? lack : std::numeric_limits<double>::infinity();
+}
+
+bool keeps_limits(const Transaction& transaction, Comparison& qualities) {
+  return keeps_limits(transaction, qualities, Judge::Kind::strict);
 }
 
 bool Judge::accepts(const Change& change) const {

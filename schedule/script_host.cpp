@@ -449,7 +449,8 @@ void ScriptHost::vary(WordCall& call) {
   VaryOptions options = {.on = std::move(arguments.on),
                          .rings = static_cast<unsigned>(numbers.integer("rings")),
                          .variants = static_cast<unsigned>(numbers.integer("variants")),
-                         .first = static_cast<unsigned>(numbers.integer("first"))};
+                         .first = static_cast<unsigned>(numbers.integer("first")),
+                         .floor = numbers.real("floor")};
   if (const ScriptValue* schedule = value.field("schedule")) {
     options.schedule = Schedule::builtin(read_text({"vary: schedule"}, *schedule));
   }

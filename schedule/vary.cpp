@@ -20,6 +20,7 @@
 #include <tbb/task_arena.h>
 
 #include "kernel/error.h"
+#include "kernel/judge_limits.h"
 #include "kernel/star.h"
 #include "schedule/neighbourhood.h"
 #include "schedule/queue.h"
@@ -39,6 +40,10 @@ struct Worth {
   /// In the order of preference.
   bool is_better_than(const Worth& other) const {
     return n_bad != other.n_bad ? n_bad < other.n_bad : improves(worst, other.worst);
+  }
+  /// Half of the bad tets are worth a worst one that is worse, down to a share of its quality.
+  bool pays_for_worst(const Worth& before, double floor) const {
+    return floor < 1 && 2 * n_bad <= before.n_bad && worst.front() >= floor * before.worst.front();
   }
 };
 
@@ -170,7 +175,10 @@ class Variants {
     Outcome outcome = describe(mesh, neighbourhoods_[n], copy.vertex);
     const Worth& before = before_[n];
     if (!outcome.worth.is_better_than(before)) return std::nullopt;
-    if (!improves(outcome.worth.worst, before.worst)) return std::nullopt;
+    if (!improves(outcome.worth.worst, before.worst) &&
+        !outcome.worth.pays_for_worst(before, options_.floor)) {
+      return std::nullopt;
+    }
     return outcome;
   }
 
@@ -243,13 +251,19 @@ class Variants {
     }
     const EditResult result = transaction.replace_cavity(neighbourhood.tets, created);
     if (result != EditResult::made) return to_verdict(result);
-    if (!Judge::strict().accepts({transaction, comparison})) return Verdict::no_improvement;
-    // A strict judge may pay for more bad tets; this pass does not.
-    if (worth_of(run_.mesh(), transaction.created()).n_bad > before_[n].n_bad) {
-      return Verdict::no_improvement;
-    }
+    if (!is_worth_it(transaction, before_[n])) return Verdict::no_improvement;
     transaction.keep();
     return Verdict::accepted;
+  }
+
+  /// A strict judge may pay for more bad tets; this pass does not.
+  bool is_worth_it(const Transaction& transaction, const Worth& before) {
+    Comparison& comparison = run_.worker().context().states.comparison;
+    const Worth now = worth_of(run_.mesh(), transaction.created());
+    if (Judge::strict().accepts({transaction, comparison})) return now.n_bad <= before.n_bad;
+    return now.pays_for_worst(before, options_.floor) &&
+           Judge::opening(options_.floor).accepts({transaction, comparison}) &&
+           keeps_limits(transaction, comparison);
   }
 
   Run& run_;

@@ -69,12 +69,15 @@ constexpr std::array<WordField, 3> kVaryFields = {{
     {"schedule", "name", "'shell'", "a built-in one, that works on each copy"},
     {"settings", "table", "{}", "values of its parameters"},
 }};
-constexpr std::array<ParameterSpec, 3> kVaryNumbers = {{
+constexpr std::array<ParameterSpec, 4> kVaryNumbers = {{
     {"rings", ParameterSpec::Kind::integer, 1, 100, 4,
      "of vertices around a selected tet that its neighbourhood has"},
     {"variants", ParameterSpec::Kind::integer, 1, 100000, 16, "of each neighbourhood"},
     {"first", ParameterSpec::Kind::integer, 0, 1000000000, 0,
      "number of the first variant; those of other numbers are others"},
+    {"floor", ParameterSpec::Kind::real, 0.01, 1, 1,
+     "where at most half as many tets are bad, the worst may be worse: down to this share of its "
+     "quality"},
 }};
 constexpr std::array<ParameterSpec, 2> kApplyNumbers = {{
     {"sweeps", ParameterSpec::Kind::integer, 1, 1000, 1,

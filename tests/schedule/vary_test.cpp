@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <set>
+#include <utility>
 #include <vector>
 
 #include <doctest/doctest.h>
@@ -61,6 +62,33 @@ TEST_CASE("the best of many variants is better than what was there, and the surf
   CHECK(surface_fingerprint(mesh) == surface);
   CHECK(test::total_volume(mesh) == doctest::Approx(volume).epsilon(1e-12));
   CHECK(check_integrity(mesh).empty());
+}
+
+TEST_CASE("a worst tet pays for half of the bad ones where it may, but not beyond the limits") {
+  TetMesh improved(delaunay_ball(400, 5));
+  Run first(improved, kRegistry);
+  improve(first, Schedule::builtin("shell"), {{"polish_first", "0"}, {"polish_last", "0"}});
+  const MeshData data = improved.to_data();
+  const auto varied = [&](double floor, bool holds) {
+    TetMesh mesh(data);
+    Run run(mesh, kRegistry);
+    run.set_standard(Standard({34, 146}, Standard::Terms::sine, 0));
+    const std::size_t tets = mesh.tet_count();
+    if (holds) run.set_most_tets(tets);
+    const std::vector<Quality> before = qualities(mesh);
+    vary(run, {.on = {.worst = 8}, .rings = 2, .variants = 8, .first = 7, .floor = floor});
+    CHECK(bad(qualities(mesh)) <= bad(before));
+    CHECK(check_integrity(mesh).empty());
+    if (holds) CHECK(mesh.tet_count() <= tets);
+    return std::pair(qualities(mesh), before.front());
+  };
+  const auto [strict, worst] = varied(1, false);
+  const auto [paid, same] = varied(0.3, false);
+  varied(0.3, true);
+  CHECK(strict.front() >= worst);
+  CHECK(bad(paid) < bad(strict));
+  CHECK(paid.front() < worst);
+  CHECK(paid.front() >= 0.3f * worst);
 }
 
 TEST_CASE("variants are the same for any number of threads") {
