@@ -2,47 +2,17 @@
 // Walks around edges.
 #include "kernel/shell.h"
 
+#include "kernel/ring_walk.h"
 #include "kernel/star.h"
 #include "kernel/workspace.h"
 
 namespace tetmend {
 
-namespace {
-
-/// The two vertices off edge e, such that (edge, others) is an even permutation of 0..3.
-constexpr std::array<std::array<std::uint8_t, 2>, 6> kOtherVertices = {
-    {{2, 3}, {3, 1}, {1, 2}, {0, 3}, {2, 0}, {0, 1}}};
-
-/// The tet at hand of a walk around an edge: (a, b, from, to), positive.
-struct Turn {
-  TetHandle tet;
-  VertexHandle from;
-  VertexHandle to;
-};
-
-Turn first_turn(const TetMesh& mesh, TetEdge e) {
-  const TetVertices& v = mesh.vertices(e.tet());
-  const auto& other = kOtherVertices[e.edge()];
-  return {e.tet(), v[other[0]], v[other[1]]};
-}
-
-/// To the tet behind the face opposite `from`; false at the boundary.
-bool step(const TetMesh& mesh, Turn& turn) {
-  const HalfFace next = mesh.twin(HalfFace(turn.tet, mesh.local_index(turn.tet, turn.from)));
-  if (next.is_outside()) return false;
-  turn = {next.tet(), turn.to, mesh.vertices(next.tet())[next.face()]};
-  return true;
-}
-
-/// The other way round.
-bool step_back(const TetMesh& mesh, Turn& turn) {
-  const HalfFace next = mesh.twin(HalfFace(turn.tet, mesh.local_index(turn.tet, turn.to)));
-  if (next.is_outside()) return false;
-  turn = {next.tet(), mesh.vertices(next.tet())[next.face()], turn.from};
-  return true;
-}
-
-}  // namespace
+using ring_walk::first_turn;
+using ring_walk::kOtherVertices;
+using ring_walk::step;
+using ring_walk::step_back;
+using ring_walk::Turn;
 
 ShellKind find_shell(const TetMesh& mesh, TetEdge edge, Shell& shell, const Territory& territory) {
   const TetVertices& first = mesh.vertices(edge.tet());

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "face/kernel/tet_mesh.h"
+#include "kernel/ring_walk.h"
 #include "kernel/shell.h"
 #include "kernel/star.h"
 
@@ -69,10 +70,10 @@ Edges TetMesh::edges() const {
       if ((seen[t.index()] >> e.edge() & 1u) != 0) continue;
       const auto [a, b] = mesh_.vertices(e);
       entries.push_back({a, b, e});
-      for (const TetHandle around : tetmend::ring(mesh_, e).tets) {
+      ring_walk::visit_around(mesh_, e, [&, a = a, b = b](TetHandle around) {
         const unsigned edge = kEdgeOf[mesh_.local_index(around, a)][mesh_.local_index(around, b)];
         seen[around.index()] = static_cast<std::uint8_t>(seen[around.index()] | 1u << edge);
-      }
+      });
     }
   }
   return {*this, std::move(entries)};
