@@ -79,7 +79,7 @@ TEST_CASE("a transaction lists the edges that it took away, made and moved, each
     }
   }();
   const std::vector<HalfFace> link = [&] {
-    const auto found = tetmend::link(mesh, middle, workspace);
+    const auto found = tetmend::link(mesh, middle);
     return std::vector<HalfFace>(found.begin(), found.end());
   }();
   const std::size_t degree = one_ring(mesh, middle).size();
