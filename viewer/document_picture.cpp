@@ -331,8 +331,7 @@ const std::vector<LegendEntry>& Document::legend() {
     const auto ends = mesh_.vertices(*edge);
     const auto from = std::min<std::uint32_t>(ends[0].index(), ends[1].index());
     const auto to = std::max<std::uint32_t>(ends[0].index(), ends[1].index());
-    legend_.push_back(
-        {kSupportingEdgeColour, fmt::format("supporting edge {} {}", from, to)});
+    legend_.push_back({kSupportingEdgeColour, fmt::format("supporting edge {} {}", from, to)});
     legend_.push_back({kSkirtColour, "skirt polygon"});
   }
   if (std::holds_alternative<TetHandle>(selection_)) {
