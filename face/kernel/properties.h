@@ -44,12 +44,12 @@ using TetRule = std::function<T(std::span<const T> old, TetHandle made)>;
 /// How a value lies in the arrays of a file: as so many numbers of one type. 0: not at all.
 template <class T>
 struct InFiles {
-  static constexpr std::size_t components = 0;
+  static constexpr std::size_t kComponents = 0;
 };
 template <class T>
 requires std::is_arithmetic_v<T>
 struct InFiles<T> {
-  static constexpr std::size_t components = 1;
+  static constexpr std::size_t kComponents = 1;
   using Number =
       std::conditional_t<std::is_floating_point_v<T>,
                          std::conditional_t<std::is_same_v<T, float>, float, double>,
@@ -61,14 +61,14 @@ struct InFiles<T> {
 template <class T, std::size_t N>
 requires std::is_arithmetic_v<T>
 struct InFiles<std::array<T, N>> {
-  static constexpr std::size_t components = N;
+  static constexpr std::size_t kComponents = N;
   using Number = typename InFiles<T>::Number;
   static const T& at(const std::array<T, N>& value, std::size_t i) { return value[i]; }
   static void set(std::array<T, N>& value, std::size_t i, T number) { value[i] = number; }
 };
 template <>
 struct InFiles<Point> {
-  static constexpr std::size_t components = 3;
+  static constexpr std::size_t kComponents = 3;
   using Number = double;
   static double at(const Point& value, std::size_t i) {
     return value[static_cast<Eigen::Index>(i)];
@@ -213,14 +213,14 @@ class ArrayOf final : public PropertyArray {
   void gather(std::span<const std::uint32_t> kept) override { values.gather(kept); }
   std::unique_ptr<PropertyArray> clone() const override { return std::make_unique<ArrayOf>(*this); }
   void read(const DataArray& from, std::span<const std::uint32_t> numbers) override {
-    if (from.components != InFiles<T>::components) refuse(from, InFiles<T>::components);
-    if constexpr (InFiles<T>::components > 0) {
+    if (from.components != InFiles<T>::kComponents) refuse(from, InFiles<T>::kComponents);
+    if constexpr (InFiles<T>::kComponents > 0) {
       std::visit([&](const auto& all) { read_from(all, numbers); }, from.values);
     }
   }
   DataArray to_data(std::span<const std::uint32_t> slots) const override {
-    DataArray out{.name = name(), .components = InFiles<T>::components, .values = {}};
-    if constexpr (InFiles<T>::components > 0) {
+    DataArray out{.name = name(), .components = InFiles<T>::kComponents, .values = {}};
+    if constexpr (InFiles<T>::kComponents > 0) {
       using Number = typename InFiles<T>::Number;
       std::vector<Number> numbers;
       numbers.reserve(slots.size() * out.components);
@@ -239,7 +239,7 @@ class ArrayOf final : public PropertyArray {
  private:
   template <class Numbers>
   void read_from(const Numbers& all, std::span<const std::uint32_t> numbers) {
-    constexpr std::size_t kComponents = InFiles<T>::components;
+    constexpr std::size_t kComponents = InFiles<T>::kComponents;
     using Own = std::decay_t<decltype(InFiles<T>::at(initial_, 0))>;
     for (std::size_t slot = 0; slot < numbers.size(); ++slot) {
       if (numbers[slot] == kNoNumber) continue;

@@ -247,7 +247,7 @@ class TETMEND_API TetMesh {
   /// @throws Error also for an array with another number of components, or of numbers that T has not
   template <class T>
   TetProperty<T> tet_data(std::string_view name, T initial = {}, NewTets rule = NewTets::initial) {
-    static_assert(InFiles<T>::components > 0, "files have no such values");
+    static_assert(InFiles<T>::kComponents > 0, "files have no such values");
     const auto property = tet_property<T>(name, std::move(initial), rule);
     carry(keeper_->tets, name);
     return property;
@@ -255,7 +255,7 @@ class TETMEND_API TetMesh {
   template <class T, class Rule>
   requires std::invocable<Rule, std::span<const T>, TetHandle> TetProperty<T> tet_data(
       std::string_view name, T initial, Rule rule) {
-    static_assert(InFiles<T>::components > 0, "files have no such values");
+    static_assert(InFiles<T>::kComponents > 0, "files have no such values");
     const auto property = tet_property<T>(name, std::move(initial), std::move(rule));
     carry(keeper_->tets, name);
     return property;
@@ -263,7 +263,7 @@ class TETMEND_API TetMesh {
   /// Likewise. @throws Error also for a mesh with mid-side nodes: it has more points than vertices
   template <class T>
   VertexProperty<T> point_data(std::string_view name, T initial = {}) {
-    static_assert(InFiles<T>::components > 0, "files have no such values");
+    static_assert(InFiles<T>::kComponents > 0, "files have no such values");
     const auto property = vertex_property<T>(name, std::move(initial));
     carry(keeper_->vertices, name);
     return property;

@@ -116,7 +116,7 @@ class Figures(unittest.TestCase):
                 (2, ["--call", "0"], "--call is for --figure"),
                 (2, ["--figure", "tree", "--call", "0", "--look", "10,20", "-o", out], "--look is for --figure shell"),
                 (2, ["--figure", "pie", "--call", "0", "-o", out], "expected one of ring, tree, timeline, shell"),
-                (2, ["--figure", "ring", "--call", "0", "-o", out.with_suffix(".gif")], "written as .svg or .pdf"),
+                (2, ["--figure", "ring", "--call", "0", "-o", out.with_suffix(".gif")], "written as .svg, .pdf or .tex"),
                 (2, ["--figure", "ring", "--tree", "0", "-o", out], "figure"),
                 (1, ["--figure", "ring", "--call", "99", "-o", out], "there is no call 99")):
             done = run(TETMEND, "trace", trace, *arguments)

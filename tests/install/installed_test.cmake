@@ -3,7 +3,7 @@
 # plugin of plugins/, the programs of docs/library.md and docs/kernel.md, and one in C++17. Then runs them. The programs are built for this very processor,
 # and write the same bytes as the command line. So does one that is built by pkg-config alone, after all that was installed
 # has moved.
-#   cmake -DBUILD=... -DSOURCE=... -DWORK=... -DCOMPILER=... -DGENERATOR=... -DLAUNCHER=... -DFLAGS=... -P installed_test.cmake
+#   cmake -DBUILD=... -DSOURCE=... -DWORK=... -DCOMPILER=... -DGENERATOR=... -DLAUNCHER=... -DFLAGS=... -DEIGEN=... -P installed_test.cmake
 cmake_minimum_required(VERSION 3.21)
 
 # run(COMMAND...): sets `output`; stops with all that was said when the status is not 0.
@@ -71,10 +71,9 @@ foreach(file IN LISTS headers)
   endforeach()
 endforeach()
 # Nor do the headers bring such along, by whatever they include in turn. g++ 12 takes seconds for each: script/bench --kernel.
-find_path(eigen Eigen/Core PATH_SUFFIXES eigen3 REQUIRED)
 foreach(header IN ITEMS kernel operators schedule)
   file(WRITE ${WORK}/header.cpp "#include <tetmend/${header}.h>\n")
-  run(${COMPILER} -std=c++20 -M -I${WORK}/prefix/include -isystem ${eigen} ${WORK}/header.cpp)
+  run(${COMPILER} -std=c++20 -M -I${WORK}/prefix/include -isystem ${EIGEN} ${WORK}/header.cpp)
   expect("/tetmend/${header}.h")
   if(output MATCHES "/(tbb|oneapi|lua[0-9.]*|fmt|zstd|nlohmann)[/.]")
     message(FATAL_ERROR "<tetmend/${header}.h> brings ${CMAKE_MATCH_1} along")

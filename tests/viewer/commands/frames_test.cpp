@@ -63,7 +63,7 @@ TEST_CASE("frames are pictures in a row, and the place in the trace stays") {
   CHECK(std::filesystem::exists(folder / "f-00.png"));
   CHECK(std::filesystem::exists(folder / "f-04.png"));
   CHECK(s.document.debugger()->position() == 17);
-  CHECK_THROWS_WITH_AS(s.run("frames", {{{"file", "x.gif"}}}), doctest::Contains("f-%04d.png"),
+  CHECK_THROWS_WITH_AS(s.run("frames", {{{"file", "x.jpg"}}}), doctest::Contains("f-%04d.png"),
                        Error);
   CHECK_THROWS_WITH_AS(s.run("frames", {{{"fil", "x.png"}}}), doctest::Contains("fil"), Error);
   CHECK_THROWS_WITH_AS(s.run("frames", {{{"from", -1}, {"file", "f%d.png"}}}),
@@ -91,7 +91,7 @@ TEST_CASE("a figure by command is that of the call, byte for byte") {
   CHECK_THROWS_WITH_AS(s.run("figure", {{{"what", "pie"}, {"file", "x.svg"}}}),
                        doctest::Contains("ring, tree"), Error);
   CHECK_THROWS_WITH_AS(s.run("figure", {{{"what", "ring"}, {"file", "x.png"}}}),
-                       doctest::Contains(".svg or .pdf"), Error);
+                       doctest::Contains(".svg, .pdf or .tex"), Error);
   CHECK_THROWS_WITH_AS(s.run("figure", {{{"what", "ring"}}}), doctest::Contains("file must be"),
                        Error);
 }
