@@ -146,7 +146,7 @@ class Files(unittest.TestCase):
             if header.name in ("api.h", "tetmend.h"):  # a mark; for C, below
                 continue
             anchors = pages()[f"cpp/{header.stem}.html"].anchors
-            for name in re.findall(r"^(?:struct|class|enum class)(?: TETMEND_API)? (\w+)", header.read_text(), re.M):
+            for name in re.findall(r"^(?:struct|class|enum class)(?: TETMEND_API)? (\w+)\b(?!;)", header.read_text(), re.M):
                 has_name = any(anchor.endswith(f"{len(name)}{name}E") for anchor in anchors)  # a mangled one
                 self.assertTrue(has_name, f"{header.name}: {name}")
 
