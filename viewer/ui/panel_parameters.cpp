@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // What may be changed while a run is paused: parameters of its operators, from the next pass on.
 #include <algorithm>
-#include <charconv>
 #include <string>
 #include <string_view>
 
+#include <fast_float/fast_float.h>
 #include <fmt/format.h>
 #include <imgui.h>
 
@@ -35,7 +35,7 @@ double value_in_settings(std::string_view text, std::string_view name, double ot
     const std::string_view value = setting.substr(key.size());
     if (value == "true" || value == "false") return value == "true" ? 1 : 0;
     double number = otherwise;
-    std::from_chars(value.data(), value.data() + value.size(), number);
+    fast_float::from_chars(value.data(), value.data() + value.size(), number);
     return number;
   }
   return otherwise;
