@@ -268,6 +268,8 @@ class Window : public Host {
 
   /// Keys without a character, and those with Ctrl; the others come as characters.
   void on_key(int key, int code, int action, int mods) {
+    if (panels_take_keys() && action != GLFW_RELEASE) key_of_panel_ = key;
+    if (action == GLFW_RELEASE && key == key_of_panel_) key_of_panel_ = GLFW_KEY_UNKNOWN;
     if (action == GLFW_RELEASE || panels_take_keys()) return;
     if (key == GLFW_KEY_ESCAPE) return controller_.key("Escape");
     constexpr std::array<std::pair<int, const char*>, 12> kNamed = {
@@ -298,7 +300,7 @@ class Window : public Host {
   void on_character(unsigned code) {
     constexpr unsigned kAscii = 127;
     if (panels_take_keys()) return ImGui_ImplGlfw_CharCallback(window_, code);
-    if (code >= kAscii) return;
+    if (code >= kAscii || key_of_panel_ != GLFW_KEY_UNKNOWN) return;
     const auto c = static_cast<int>(code);
     if (c == ' ') return controller_.key("Space");
     controller_.key(fmt::format("{}{:c}", std::isupper(c) != 0 ? "Shift+" : "", std::toupper(c)));
@@ -346,6 +348,7 @@ class Window : public Host {
   Document& document_;
   Session session_;
   Controller controller_;
+  int key_of_panel_ = GLFW_KEY_UNKNOWN;  // held down; what it answered may be gone already
   std::deque<Input> inputs_;
   glm::dvec2 pointer_{0};             // where the mouse was at the input at hand, in units of GLFW
   std::array<bool, 5> buttons_ = {};  // those of ImGui
