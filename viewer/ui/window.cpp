@@ -266,10 +266,16 @@ class Window : public Host {
     controller_.scroll(y, at.x, at.y);
   }
 
+  /// The letter that answers a question may come as a character when the question is gone already.
+  void note_key_of_panel(int key) {
+    constexpr double kSeconds = 0.3;
+    key_of_panel_ = key;  // letters have the numbers of their capitals
+    end_of_key_ = glfwGetTime() + kSeconds;
+  }
+
   /// Keys without a character, and those with Ctrl; the others come as characters.
   void on_key(int key, int code, int action, int mods) {
-    if (panels_take_keys() && action != GLFW_RELEASE) key_of_panel_ = key;
-    if (action == GLFW_RELEASE && key == key_of_panel_) key_of_panel_ = GLFW_KEY_UNKNOWN;
+    if (action != GLFW_RELEASE && panels_take_keys()) note_key_of_panel(key);
     if (action == GLFW_RELEASE || panels_take_keys()) return;
     if (key == GLFW_KEY_ESCAPE) return controller_.key("Escape");
     constexpr std::array<std::pair<int, const char*>, 12> kNamed = {
@@ -300,8 +306,9 @@ class Window : public Host {
   void on_character(unsigned code) {
     constexpr unsigned kAscii = 127;
     if (panels_take_keys()) return ImGui_ImplGlfw_CharCallback(window_, code);
-    if (code >= kAscii || key_of_panel_ != GLFW_KEY_UNKNOWN) return;
+    if (code >= kAscii) return;
     const auto c = static_cast<int>(code);
+    if (std::toupper(c) == key_of_panel_ && glfwGetTime() < end_of_key_) return;
     if (c == ' ') return controller_.key("Space");
     controller_.key(fmt::format("{}{:c}", std::isupper(c) != 0 ? "Shift+" : "", std::toupper(c)));
   }
@@ -348,7 +355,8 @@ class Window : public Host {
   Document& document_;
   Session session_;
   Controller controller_;
-  int key_of_panel_ = GLFW_KEY_UNKNOWN;  // held down; what it answered may be gone already
+  int key_of_panel_ = GLFW_KEY_UNKNOWN;
+  double end_of_key_ = 0;
   std::deque<Input> inputs_;
   glm::dvec2 pointer_{0};             // where the mouse was at the input at hand, in units of GLFW
   std::array<bool, 5> buttons_ = {};  // those of ImGui
