@@ -176,7 +176,9 @@ class Window : public Host {
   }
 
   void lay_out() {
-    guarded(document_, [&] { document_.follow_live(); });
+    // A question is asked of what is shown; and no panel may come up behind its window.
+    const bool asks = document_.waiting || document_.question != FileQuestion::none;
+    if (!asks) guarded(document_, [&] { document_.follow_live(); });
     glfwGetFramebufferSize(window_, &document_.window.width, &document_.window.height);
     document_.window.width = std::max(document_.window.width, 1);
     document_.window.height = std::max(document_.window.height, 1);
