@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <exception>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <span>
 #include <string>
@@ -245,12 +246,16 @@ class ArrayOf final : public PropertyArray {
       if (numbers[slot] == kNoNumber) continue;
       for (std::size_t i = 0; i < kComponents; ++i) {
         const auto number = all[kComponents * numbers[slot] + i];
-        const auto own = static_cast<Own>(number);
-        // Real numbers may be rounded; whole ones are what they are.
-        const bool fits = std::is_floating_point_v<Own> ||
-                          static_cast<double>(own) == static_cast<double>(number);
-        if (!fits) refuse(numbers[slot], static_cast<double>(number));
-        InFiles<T>::set(values[slot], i, own);
+        // Real numbers may be rounded; whole ones are what they are, and converted where they fit alone.
+        const auto real = static_cast<double>(number);
+        bool fits = true;
+        if constexpr (!std::is_floating_point_v<Own>) {
+          fits = real >= static_cast<double>(std::numeric_limits<Own>::lowest()) &&
+                 real <= static_cast<double>(std::numeric_limits<Own>::max()) &&
+                 static_cast<double>(static_cast<Own>(number)) == real;
+        }
+        if (!fits) refuse(numbers[slot], real);
+        InFiles<T>::set(values[slot], i, static_cast<Own>(number));
       }
     }
   }

@@ -231,7 +231,7 @@ class Reader {
       members = file_->integers(below);
       if (std::string_view(what).starts_with("Element")) location = "FaceCenter";
       if (!std::string_view(what).ends_with("Range")) break;
-      if (members.size() != 2 || members[1] < members[0] ||
+      if (members.size() != 2 || members[0] < 1 || members[1] < members[0] ||
           members[1] - members[0] > static_cast<std::int64_t>(places_.size() + mesh_.points.size()))
         file_->fail(path, "its range makes no sense");
       const std::int64_t last = members[1];

@@ -105,6 +105,9 @@ class Writer {
       section.first = next;
       for (const auto& [k, i] : section.elements) numbers_[k][i] = next++;
     }
+    // Other nodes of a zone.
+    for (const char* taken : {"ZoneType", "GridCoordinates", "ZoneBC", "PointData", "CellData"})
+      section_names_.take(taken);
     for (std::size_t g = 0; g < members_.size(); ++g) name_section(g);
     UniqueNames names;
     for (const WrittenSection& section : sections_) names.take(section.name);

@@ -129,6 +129,7 @@ void ExodusPlan::collect_sets() {
     if (name != group(g).name) name = changed.make(name);
     ElementSet set{group(g).number, std::move(name), members_[g].points, {}};
     if (group(g).dimension == 0) {
+      if (members_[g].points.empty()) continue;  // classic netCDF has no dimension of length 0
       node_sets.push_back(std::move(set));
       continue;
     }

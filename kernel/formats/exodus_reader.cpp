@@ -123,6 +123,8 @@ class Reader {
     const std::vector<std::string> called = names("eb_names");
     for (std::size_t b = 1; b <= numbers.size() || file_->has(fmt::format("connect{}", b)); ++b) {
       const std::string path = numbered("connect", b);
+      if (const std::string faces = numbered("facconn", b); file_->has(faces))
+        file_->fail(faces, "polyhedra cannot be kept: expected tets, pyramids, prisms, hexahedra");
       if (!file_->has(path)) continue;  // a block without elements
       ExodusBlock block;
       block.path = path;
@@ -132,6 +134,9 @@ class Reader {
       const auto extents = file_->extents(path);
       if (extents.size() == 2) block.kind = kind_of(path, extents[1]);
       block.count = extents.empty() ? 0 : static_cast<std::size_t>(extents[0]);
+      const std::string of_polygons = numbered("ebepecnt", b);  // whose table is one of nodes
+      if (file_->has(of_polygons) && !file_->extents(of_polygons).empty())
+        block.count = static_cast<std::size_t>(file_->extents(of_polygons)[0]);
       blocks_.push_back(block);
       if (block.kind == nullptr) {
         mesh_.notes.push_back(fmt::format("{} elements of Exodus' type {} are not kept",
@@ -215,7 +220,9 @@ class Reader {
       ElementSet set;
       set.number = s <= numbers.size() ? numbers[s - 1] : static_cast<std::int64_t>(s);
       if (s <= called.size()) set.name = called[s - 1];
-      if (!file_->has(path) || file_->extents(path).at(0) == 0) {
+      const bool is_there = file_->has(path);
+      if (is_there && file_->extents(path).empty()) file_->fail(path, "the table has no dimension");
+      if (!is_there || file_->extents(path)[0] == 0) {
         mesh_.notes.push_back(fmt::format("the {} {} has no members: not kept", what, set.number));
         continue;
       }

@@ -61,7 +61,11 @@ class VariableReader {
   /// Empty: it is not there.
   std::string find(const std::string& path) {
     known_.insert(path);
-    return file_.has(path) ? path : std::string();
+    if (!file_.has(path)) return {};
+    const auto extents = file_.extents(path);
+    if (std::find(extents.begin(), extents.end(), 0) == extents.end()) return path;
+    mesh_.notes.push_back(fmt::format("{} has no step: not kept", in_quotes(path)));
+    return {};
   }
   void note(const std::string& name, std::string_view of) {
     mesh_.notes.push_back(
@@ -87,13 +91,11 @@ class VariableReader {
   void read_of_kind(std::span<const ExodusBlock> blocks, const ElementKind& kind,
                     const std::string& name, std::size_t k) {
     std::vector<double> all;
-    std::size_t count = 0;
     bool is_somewhere = false;
     bool is_everywhere = true;
     for (const ExodusBlock& block : blocks) {
       if (block.kind == nullptr || block.kind->vtk_type != kind.vtk_type || block.count == 0)
         continue;
-      count += block.count;
       const std::string path = find(fmt::format("vals_elem_var{}eb{}", k + 1, block.index));
       is_somewhere = is_somewhere || !path.empty();
       is_everywhere = is_everywhere && !path.empty();
@@ -115,7 +117,7 @@ class VariableReader {
 
 std::string joined(const std::vector<std::string>& lines) {
   std::string all;
-  for (const std::string& line : lines) all += (all.empty() ? "" : "\n") + line;
+  for (const std::string& line : lines) all += line + '\n';
   return all;
 }
 

@@ -338,6 +338,11 @@ std::vector<std::string> not_in_exodus(const std::filesystem::path&, const MeshD
   std::vector<std::string> notes;
   note_arrays(mesh.point_data, notes);
   note_arrays(mesh.tet_data, notes);
+  for (const Group& group : mesh.groups) {
+    if (group.dimension != 0 || !group.members.empty()) continue;
+    notes.push_back(fmt::format("the group '{}' of no points is not kept: .e has no empty set",
+                                printable(group.name)));
+  }
   for (const OtherElements& others : mesh.other_elements) {
     const ElementKind* kind = element_kind(others.vtk_type);
     if (kind == nullptr || kind->dimension != 2 || others.data.empty()) continue;

@@ -354,23 +354,27 @@ class Writer {
       buffer.put_integer(number);
       buffer.put(',');
       const Label label = list.label(i);
-      if (label != 0 || !was_deck_) {
-        buffer.put_integer(label > 0 ? label : properties_.at(label));
-      } else if (deck_ != nullptr) {
-        buffer.put((*deck_)[nastran_zero]);
+      if (label > 0) {
+        buffer.put_integer(label);
+      } else {
+        buffer.put(property(label));
       }
       put_nodes(buffer, list, i);
       buffer.put('\n');
     });
   }
 
+  /// Of a deck elements without one keep what they had in that field.
+  std::string property(Label label) const {
+    if (label != 0 || !was_deck_) return fmt::to_string(label > 0 ? label : properties_.at(label));
+    return deck_ == nullptr ? std::string() : (*deck_)[nastran_zero];
+  }
+
   void put_element_as(OutputBuffer& buffer, std::string_view name, std::size_t k,
                       std::size_t i) const {
     const ElementList& list = lists_.all()[k];
     const Label label = list.label(i);
-    const bool is_blank = label == 0 && was_deck_;
-    std::vector<std::string> fields = {fmt::to_string(elements_[k][i])};
-    fields.push_back(is_blank ? "" : fmt::to_string(label > 0 ? label : properties_.at(label)));
+    std::vector<std::string> fields = {fmt::to_string(elements_[k][i]), property(label)};
     const auto listed = listed_nodes(list, i);
     for (std::size_t n = 0; n < list.kind.width; ++n)
       fields.push_back(fmt::to_string(points_[listed[n]]));

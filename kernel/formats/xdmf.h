@@ -44,7 +44,8 @@ inline constexpr std::array<XdmfType, 15> kXdmfTypes = {
      {"hexahedron_20", 48, vtk_hexahedron20, "hex_20"}}};
 
 inline bool xdmf_holds(int vtk_type) {
-  return element_kind(vtk_type) != nullptr;
+  const ElementKind* kind = element_kind(vtk_type);
+  return kind != nullptr && kind->dimension > 0;
 }
 
 /// Grids on the points of the first one with tets are its faces and edges, and tags of any of them. Of steps

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <cstdlib>
 #include <utility>
 #include <variant>
@@ -96,8 +97,18 @@ DataArray::Values XdmfItems::inline_values(const pugi::xml_node& item) const {
 }
 
 std::vector<std::int64_t> XdmfItems::integers(const pugi::xml_node& item) {
+  constexpr double kMost = 9e15;  // what doubles have exactly
   return std::visit(
-      [](const auto& from) { return std::vector<std::int64_t>(from.begin(), from.end()); },
+      [&](const auto& from) {
+        std::vector<std::int64_t> all;
+        all.reserve(from.size());
+        for (const auto value : from) {
+          if (!(std::abs(static_cast<double>(value)) <= kMost))
+            fail(item, fmt::format("'{}' is not the number of anything", value));
+          all.push_back(static_cast<std::int64_t>(value));
+        }
+        return all;
+      },
       values(item));
 }
 

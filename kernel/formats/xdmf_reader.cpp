@@ -91,7 +91,9 @@ class Reader {
   }
 
   /// All grids without further ones; of steps those of the first.
-  void collect(const pugi::xml_node& parent) {
+  void collect(const pugi::xml_node& parent, int depth = 0) {
+    constexpr int kDeepest = 100;
+    if (depth > kDeepest) fail(parent, "more than 100 grids lie in each other");
     std::size_t steps = 0;
     for (const pugi::xml_node grid : parent.children("Grid")) {
       const std::string kind = xdmf_lower_case(grid.attribute("GridType").as_string("uniform"));
@@ -101,7 +103,7 @@ class Reader {
       if (kind == "uniform") {
         grids_.push_back(grid);
       } else {
-        collect(grid);
+        collect(grid, depth + 1);
       }
     }
     if (steps > 1) {
@@ -166,14 +168,30 @@ class Reader {
     const pugi::xml_node item = items_.item_of(topology);
     const std::vector<std::int64_t> all = items_.integers(item);
     XdmfCells cells;
+    if (topology.attribute("BaseOffset").as_llong(0) != 0)
+      fail(topology, "points that do not count from 0 cannot be read: expected no BaseOffset");
     const XdmfType* type = name == "mixed" ? nullptr : type_of(topology, name, 0);
     for (std::size_t at = 0; at < all.size();) {
       const XdmfType* of_cell = type != nullptr ? type : type_of(topology, {}, all[at++]);
-      if (type == nullptr && of_cell->number <= 2) ++at;  // how many points a line has
       const std::size_t width = element_kind(of_cell->vtk_type)->width;
+      if (type == nullptr && of_cell->number <= 2) {  // how many points a line has
+        if (at < all.size() && all[at] != static_cast<std::int64_t>(width))
+          fail(item, fmt::format("lines of {} points cannot be read: expected {}", all[at], width));
+        ++at;
+      }
       if (at > all.size() || width > all.size() - at) fail(item, "the numbers end within a cell");
       for (std::size_t k = 0; k < width; ++k) cells.vertices.push_back(all[at++]);
       cells.add(of_cell->vtk_type);
+    }
+    const pugi::xml_attribute width = topology.attribute("NodesPerElement");
+    if (type != nullptr && width && width.as_ullong() != element_kind(type->vtk_type)->width) {
+      fail(topology, fmt::format("cells of {} points cannot be read: expected {}",
+                                 width.as_ullong(), element_kind(type->vtk_type)->width));
+    }
+    const pugi::xml_attribute count = topology.attribute("NumberOfElements");
+    if (count && count.as_ullong() != cells.types.size()) {
+      fail(topology,
+           fmt::format("{} cells are here: expected {}", cells.types.size(), count.as_ullong()));
     }
     return cells;
   }

@@ -178,6 +178,24 @@ TEST_CASE("trees of CGNS that make no sense are refused with the node and the re
   }
 }
 
+TEST_CASE("groups that are called like nodes of a zone are written to CGNS under other names") {
+  if (!formats::has_hdf5()) return;
+  const TempFolder folder;
+  MeshData mesh;
+  mesh.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  mesh.tets = {{{0, 1, 2, 3}, 3}};
+  for (const char* name : {"ZoneBC", "GridCoordinates"}) {
+    Group group;
+    group.dimension = 3;
+    group.name = name;
+    group.number = 3;
+    group.members = {0};
+    mesh.groups = {group};
+    write_mesh(folder / "a.cgns", mesh);
+    CHECK(read_mesh(folder / "a.cgns").tets.size() == 1);
+  }
+}
+
 TEST_CASE("an older CGNS file of ADF is refused with the program that makes HDF5 of it") {
   const TempFolder folder;
   write_text(folder / "a.cgns", "@(#)ADF Database Version A02011>");

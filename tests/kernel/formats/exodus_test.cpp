@@ -173,6 +173,36 @@ TEST_CASE("tables of Exodus that make no sense are refused with the table and th
   }
 }
 
+TEST_CASE("a group of no points is not written to Exodus, where it would be a table of all steps") {
+  const TempFolder folder;
+  MeshData mesh = awkward_mesh();
+  Group empty;
+  empty.dimension = 0;
+  empty.name = "nothing";
+  empty.number = 77;
+  mesh.groups.push_back(empty);
+  write_mesh(folder / "a.e", mesh);
+  CHECK(read_mesh(folder / "a.e").tets.size() == mesh.tets.size());
+  const std::vector<std::string> lost = not_written(folder / "a.e", mesh);
+  CHECK(std::any_of(lost.begin(), lost.end(), [](const std::string& note) {
+    return note.find("the group 'nothing' of no points is not kept") != std::string::npos;
+  }));
+}
+
+TEST_CASE("variables of Exodus without a step are told, and the mesh is read") {
+  const TempFolder folder;
+  SmallExodus().write(folder / "a.e");
+  std::string bytes = read_text(folder / "a.e");
+  for (const std::size_t k : {4, 5, 6, 7}) bytes[k] = '\0';  // how many steps there are
+  write_text(folder / "a.e", bytes);
+  const MeshData mesh = read_mesh(folder / "a.e");
+  CHECK(mesh.tets.size() == 2);
+  CHECK(mesh.point_data.empty());
+  CHECK(std::any_of(mesh.notes.begin(), mesh.notes.end(), [](const std::string& note) {
+    return note.find("vals_nod_var1' has no step: not kept") != std::string::npos;
+  }));
+}
+
 TEST_CASE("a file of Exodus with any byte changed, or cut anywhere, is an error or a sound mesh") {
   const TempFolder folder;
   SmallExodus().write(folder / "a.e");

@@ -651,6 +651,10 @@ TEST_CASE("elements of property 0 keep it, which a blank field is not") {
   write_mesh(folder / "b.bdf", mesh);
   CHECK(read_text(folder / "b.bdf").find("\nCTETRA,3,0,20,") != std::string::npos);
   CHECK(same_mesh(read_mesh(folder / "b.bdf"), mesh));
+  MeshView view(mesh);
+  view.set_variant("free");
+  write_mesh(folder / "c.bdf", view);
+  CHECK(read_text(folder / "c.bdf").find("\nCTETRA,3,0,20,") != std::string::npos);
 }
 
 TEST_CASE("the name of an included file that is too long for any is a file that is not there") {

@@ -110,6 +110,19 @@ TEST_CASE("XDMF that makes no sense is refused with file, line and reason") {
       {"0 0 -1<", "0 0 nan<", "a.xdmf:10: a coordinate of point 5 is not finite"},
       {"\"Tetrahedron\"", "\"Tetrahedron_99\"", "a.xdmf:6: cells of type 'tetrahedron_99'"},
       {"Format=\"XML\"", "Format=\"Binary\"", "a.xdmf:7: data of format 'Binary' cannot be read"},
+      {"NumberOfElements=\"2\"", "NumberOfElements=\"3\"",
+       "a.xdmf:6: 2 cells are here: expected 3"},
+      {"NumberOfElements=\"2\"", "BaseOffset=\"1\"", "a.xdmf:6: points that do not count from 0"},
+      {"\"Triangle\" NumberOfElements=\"1\" NodesPerElement=\"3\"",
+       "\"Polyline\" NodesPerElement=\"3\"", "a.xdmf:"},
+      {"\"2 4\" NumberType=\"Int\" Format=\"XML\">0 1 2 3  0 2 1 4",
+       "\"2 4\" Format=\"XML\">0 1 2 3  0 2 1 1e300", "a.xdmf:7: '1e+300' is not the number"},
+      {"\"Tetrahedron\" NumberOfElements=\"2\" NodesPerElement=\"4\">\n    <DataItem "
+       "Dimensions=\"2 4\" "
+       "NumberType=\"Int\" Format=\"XML\">0 1 2 3  0 2 1 4",
+       "\"Mixed\">\n    <DataItem Dimensions=\"11\" NumberType=\"Int\" Format=\"XML\">6 0 1 2 3 2 "
+       "3 0 1 4 6",
+       "a.xdmf:7: lines of 3 points cannot be read: expected 2"},
       {"</Domain>", "</Domai>", "a.xdmf:"}};
   for (const Case& each : bad) {
     CAPTURE(each.error);
@@ -117,4 +130,17 @@ TEST_CASE("XDMF that makes no sense is refused with file, line and reason") {
     write_text(folder / "a.xdmf", replaced(small_xdmf(), each.what, each.by));
     CHECK(error_of_reading(folder / "a.xdmf").starts_with(each.error));
   }
+}
+
+TEST_CASE("grids that lie in each other without end are refused, and point elements are told") {
+  const TempFolder folder;
+  std::string text = "<Xdmf><Domain>";
+  for (int i = 0; i < 1000; ++i) text += "<Grid GridType=\"Tree\">";
+  for (int i = 0; i < 1000; ++i) text += "</Grid>";
+  write_text(folder / "a.xdmf", text + "</Domain></Xdmf>");
+  CHECK(error_of_reading(folder / "a.xdmf").find("more than 100 grids lie in each other") !=
+        std::string::npos);
+  MeshData mesh = awkward_mesh();
+  mesh.other_elements = {{1, 1, {0}, {3}, {}, {}, {}}};
+  CHECK(!not_written(folder / "a.xdmf", mesh).empty());
 }
