@@ -85,10 +85,17 @@ inline void wait_for(const std::filesystem::path& file) {
 
 /// The picture of the whole window: key P writes it into the current folder.
 inline viewer::Image take_picture(const std::filesystem::path& folder) {
-  std::filesystem::remove(folder / "tetmend-view.png");
-  type("key p");
-  wait_for(folder / "tetmend-view.png");
-  return read_png(folder / "tetmend-view.png");
+  const std::filesystem::path file = folder / "tetmend-view.png";
+  std::filesystem::remove(file);
+  // While a file opens, keys are those of its bar.
+  for (int i = 0; i < 30 && !std::filesystem::exists(file); ++i) {
+    type("key p");
+    for (int k = 0; k < 40 && !std::filesystem::exists(file); ++k) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    }
+  }
+  REQUIRE(std::filesystem::exists(file));
+  return read_png(file);
 }
 
 /// Waits until two pictures in a row are the same.

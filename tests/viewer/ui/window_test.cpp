@@ -81,6 +81,7 @@ TEST_CASE("in the dialog for files a part of a name and the arrows are enough") 
   type("key ctrl+o");
   type("type trace");
   type("key Down key Down key Down key Return");
+  wait_until_still();
   const auto state = viewer.quit();
   CHECK(state["file"].get<std::string>().ends_with("third.trace"));
   REQUIRE(state["recent"].size() == 2);
