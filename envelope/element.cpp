@@ -29,7 +29,8 @@ Point nearest_on_segment(const Point& a, const Point& b, const Point& p) {
 
 }  // namespace
 
-/// [ericson_collision, 5.1.5]: the region of the plane that p lies over decides.
+/// [ericson_collision, 5.1.5]: the region of the plane that p lies over decides. Signs of areas come
+/// from cross products: products of its dot products cancel in needles.
 Point nearest_point(const std::array<Point, 3>& points, unsigned corners, const Point& p) {
   const auto& [a, b, c] = points;
   if (corners == 2) return nearest_on_segment(a, b, p);
@@ -43,18 +44,16 @@ Point nearest_point(const std::array<Point, 3>& points, unsigned corners, const 
   const double d3 = ab.dot(bp);
   const double d4 = ac.dot(bp);
   if (d3 >= 0 && d4 <= d3) return b;
-  const double vc = d1 * d4 - d3 * d2;
-  if (vc <= 0 && d1 >= 0 && d3 <= 0) return nearest_on_segment(a, b, p);
+  const Point n = ab.cross(ac);
+  if (d1 >= 0 && d3 <= 0 && n.dot(ap.cross(bp)) <= 0) return nearest_on_segment(a, b, p);
   const Point cp = p - c;
   const double d5 = ab.dot(cp);
   const double d6 = ac.dot(cp);
   if (d6 >= 0 && d5 <= d6) return c;
-  const double vb = d5 * d2 - d1 * d6;
-  if (vb <= 0 && d2 >= 0 && d6 <= 0) return nearest_on_segment(a, c, p);
-  const double va = d3 * d6 - d5 * d4;
-  if (va <= 0 && d4 - d3 >= 0 && d5 - d6 >= 0) return nearest_on_segment(b, c, p);
-  const double sum = va + vb + vc;
-  return a + ab * (vb / sum) + ac * (vc / sum);
+  if (d2 >= 0 && d6 <= 0 && n.dot(cp.cross(ap)) <= 0) return nearest_on_segment(a, c, p);
+  if (d4 - d3 >= 0 && d5 - d6 >= 0 && n.dot(bp.cross(cp)) <= 0) return nearest_on_segment(b, c, p);
+  const double n2 = n.squaredNorm();
+  return n2 > 0 ? Point(p - n.dot(ap) / n2 * n) : nearest_on_segment(a, b, p);
 }
 
 Box box_of(const std::array<Point, 3>& points) {

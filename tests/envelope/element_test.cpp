@@ -34,6 +34,20 @@ TEST_CASE("the nearest point of a triangle is as near as its plane and sides say
   }
 }
 
+TEST_CASE("a point of a needle is its own nearest point") {
+  contract::Random random(3);
+  const Triangle t = {Point(52176.19978596054, 0, 0), Point(68073.821973886923, 1, 0),
+                      Point(102110.73296083038, 1, 0)};  // 50,000 times as long as high
+  for (int i = 0; i < 2000; ++i) {
+    const double s = random.real(0, 1);
+    const double u = random.real(0, 1 - s);
+    const Point p = t[0] + s * (t[1] - t[0]) + u * (t[2] - t[0]);
+    CHECK((nearest_point(t, 3, p) - p).norm() < 1e-9);
+    const Point above = p + Point(0, 0, 0.01);
+    CHECK((nearest_point(t, 3, above) - p).norm() < 1e-9);
+  }
+}
+
 TEST_CASE("the tree finds what a loop over the elements of a sheet finds") {
   contract::Random random(2);
   std::vector<Element> elements;

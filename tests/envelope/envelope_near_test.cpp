@@ -267,7 +267,8 @@ TEST_CASE("the proven bound lies between what is sampled and the tolerance, and 
   const SurfaceBound bound = model.guard().proven_bound();
   const std::vector<Triangle> now = model.triangles();
   CHECK(sampled_distance(now, model.reference()) <= bound.distance);
-  CHECK(sampled_distance(model.reference(), now) <= bound.distance);
+  constexpr double kRounding = 1 + 1e-12;  // sampled by another formula
+  CHECK(sampled_distance(model.reference(), now) <= kRounding * bound.distance);
   CHECK(bound.distance <= 0.02);
   const double own = model.guard().sampled_distance(13);
   CHECK(own == doctest::Approx(std::max(sampled_distance(now, model.reference()),
