@@ -27,6 +27,7 @@ struct ConvertOptions {
   std::string extension;         ///< --to: of the outputs; all that is named is read
   std::filesystem::path folder;  ///< --into: of the outputs; empty: that of the input
   bool json = false;
+  bool quiet = false;
   CarryOptions carry;
   std::string format;
   std::size_t parts = 0;
@@ -36,6 +37,7 @@ struct ConvertOptions {
 /// What was written, in one line.
 void tell_written(const ConvertOptions& options, const Mesh& mesh,
                   const std::vector<std::string>& notes) {
+  if (options.quiet) return;
   if (options.json) {
     const nlohmann::json json = {{"input", shown(options.input)},
                                  {"output", options.output.string()},
@@ -115,6 +117,9 @@ int convert_several(ConvertOptions& options, Invocation& invocation) {
   if (!options.output.empty()) files.push_back(options.output);
   files.insert(files.end(), options.more.begin(), options.more.end());
   check_several(options, files, *invocation.array_files);
+  if (std::error_code error; !options.folder.empty()) {
+    std::filesystem::create_directories(options.folder, error);  // if not, writing tells why
+  }
   std::size_t failed = 0;
   for (const auto& file : files) {
     options.input = file;
@@ -128,7 +133,7 @@ int convert_several(ConvertOptions& options, Invocation& invocation) {
       complain(kFailed, error.what());
     }
   }
-  if (!options.json && files.size() > 1) {
+  if (!options.json && !options.quiet && files.size() > 1) {
     say(stdout, fmt::format("{} of {} meshes converted\n", grouped(files.size() - failed),
                             grouped(files.size())));
   }
@@ -165,9 +170,15 @@ void add_convert(CLI::App& app, Invocation& invocation) {
           "Read all that is named, and write each with this extension, such as vtu, beside "
           "it")
       ->type_name("EXT");
-  command->add_option("--into", options->folder, "With --to: folder for what is written")
+  command
+      ->add_option("--into", options->folder,
+                   "With --to: folder for what is written; it is\nmade where there is none")
       ->type_name("FOLDER");
-  command->add_flag("--json", options->json, "Print JSON, a line for each mesh");
+  CLI::Option* const json =
+      command->add_flag("--json", options->json, "Print JSON, a line for each mesh");
+  command
+      ->add_flag("-q,--quiet", options->quiet, "Print nothing but errors and what OUT cannot hold")
+      ->excludes(json);
   add_carry_options(*command, options->carry);
   add_format_option(*command, options->format);
   add_threads_option(*command, options->threads);

@@ -13,6 +13,7 @@
 #include "apps/bad_tets.h"
 #include "apps/commands.h"
 #include "apps/files.h"
+#include "apps/improve_options.h"
 #include "apps/mesh_formats.h"
 #include "apps/number_check.h"
 #include "apps/report.h"
@@ -29,6 +30,7 @@ struct QualityOptions {
   std::vector<std::filesystem::path> files;
   std::filesystem::path file;  // the one that is measured now
   std::vector<std::string> measures;
+  Options run;  // its goal alone
   bool limit = false;
   std::size_t list = 0;         // --list
   std::filesystem::path cells;  // --cells
@@ -56,6 +58,8 @@ std::vector<std::string> list_measures(const std::vector<std::string>& names) {
 nlohmann::json figures_of(const QualityOptions& options, const Measurement& measured) {
   nlohmann::json result = tetmend::to_json(measured.statistics);
   result["file"] = shown(options.file);
+  const Goal& goal = options.run.goal;
+  result["goal"] = {{"min_angle", goal.min_angle}, {"max_angle", goal.max_angle}};
   result["build"] = to_json(measured.build);
   result["notes"] = measured.notes;
   if (measured.rulers) result["rulers"] = tetmend::to_json(*measured.rulers);
@@ -99,6 +103,7 @@ Row to_row(const Measurement& measured) {
 /// @throws UsageError
 MeasureOptions to_wanted(const QualityOptions& options) {
   MeasureOptions wanted = {.measure = list_measures(options.measures),
+                           .goal = options.run.goal,
                            .limit = options.limit,
                            .bad_tets = options.list > 0 || !options.cells.empty(),
                            .threads = options.threads};
@@ -123,6 +128,10 @@ Measurement measure_file(const QualityOptions& options, const MeasureOptions& wa
 
 void print_text(const QualityOptions& options, const Measurement& measured) {
   say(stdout, fmt::format("{}\n\n", shown(options.file)));
+  if (const Goal& goal = options.run.goal; !(goal == Goal{})) {
+    say(stdout, fmt::format("bad tets: angles below {:g} or above {:g} degrees\n\n", goal.min_angle,
+                            goal.max_angle));
+  }
   std::string notes = format_build(measured.build);
   for (const std::string& note : measured.notes) notes += fmt::format("note: {}\n", note);
   if (!notes.empty()) say(stdout, fmt::format("{}\n", notes));
@@ -230,6 +239,7 @@ void add_quality(CLI::App& app, Invocation& invocation) {
       ->type_name("NAME")
       ->expected(1)
       ->take_all();
+  add_goal_option(*command, options->run);
   command->add_flag("--limit", options->limit,
                     "Add what the surface allows at best, and why each bad\ntet is there");
   command
@@ -247,7 +257,8 @@ void add_quality(CLI::App& app, Invocation& invocation) {
   command->footer(fmt::format(R"(The angles are those between the faces of a tet, in degrees.
   lambda          share of the angles that are <= 30 or >= 150
   lambda_1..5     its parts: angles within 6, 6-12 ... 24-30 degrees of 0 or 180
-  q               minimum sine of the angles of a tet; a tet is bad if q < 0.5
+  q               minimum sine of the angles of a tet; with the usual
+                  goal a tet is bad if q < 0.5
   q_worst, q_aver the smallest q, and the mean over the bad tets
 In JSON the names are the same; histogram counts the angles by 5 degrees.
 
@@ -269,6 +280,7 @@ Examples:
   tetmend quality part.mesh --limit
   tetmend quality part.vtk --measure radius_ratio --measure mean_ratio --json
   tetmend quality part.msh --list 20 --cells bad.vtu
+  tetmend quality part.msh --goal 20,160 --limit
   tetmend quality results/*.vtu
 
 Exit status: 0 success, 1 a file cannot be read, 2 wrong usage)",

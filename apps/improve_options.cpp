@@ -166,6 +166,13 @@ void add_improve_options(CLI::App& command, ImproveOptions& options) {
   group_options(command);
 }
 
+void add_goal_option(CLI::App& command, Options& options) {
+  for (const OptionForm& form : option_forms()) {
+    if (form.name == "goal") add_form(command, options, form);
+  }
+  group_options(command);
+}
+
 void add_folder_option(CLI::App& command) {
   command.add_flag("--no-config")->description("Take no options from tetmend.conf of this folder");
   group_options(command);

@@ -42,6 +42,8 @@ void add_improve_options(CLI::App& command, ImproveOptions& options);
 void add_folder_option(CLI::App& command);
 
 /// --dry-run, for a run that has the whole mesh in memory.
+/// Of a command that has no other option of a run.
+void add_goal_option(CLI::App& command, Options& options);
 void add_dry_run_option(CLI::App& command, ImproveOptions& options);
 
 /// The same, and those that say how long edges are to be.

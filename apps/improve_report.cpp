@@ -128,6 +128,11 @@ std::string share(double part) {
   return fmt::format("{:.2f} %", 100 * part);
 }
 
+/// As large as wanted.
+std::string tets_that_fill(const SizeStatistics& sizes) {
+  return grouped(static_cast<std::size_t>(std::min(sizes.tets_wanted, 1e18)));
+}
+
 /// Edges by their lengths over those wanted.
 std::string format_sizes(const SizeStatistics& before, const SizeStatistics& after) {
   const auto percent = [](const SizeStatistics& sizes, std::size_t count) {
@@ -155,9 +160,7 @@ std::string format_sizes(const SizeStatistics& before, const SizeStatistics& aft
   row("edges", [](const SizeStatistics& s) { return grouped(s.edges); });
   row("off, on the surface", [](const SizeStatistics& s) { return grouped(s.on_surface); });
   row("off, between walls", [](const SizeStatistics& s) { return grouped(s.between_walls); });
-  row("tets that would fill it", [](const SizeStatistics& s) {
-    return grouped(static_cast<std::size_t>(std::min(s.tets_wanted, 1e18)));
-  });
+  row("tets that would fill it", tets_that_fill);
   return text;
 }
 
@@ -443,6 +446,11 @@ std::string format_prospect(const ImproveReport& report) {
   if (has_regions(run)) {
     line("tets protected", fmt::format("{}, {} of them bad", grouped(result.protected_tets),
                                        grouped(result.protected_bad_tets)));
+  }
+  if (const auto& sizes = result.sizes_before) {
+    line("edges as wanted",
+         fmt::format("{} of {}; about {} tets would fill the mesh", share(sizes->in_range),
+                     grouped(sizes->edges), tets_that_fill(*sizes)));
   }
   for (const CarriedArray& array : result.carried) {
     line("data", fmt::format("'{}' of {}", printable(array.name), array.on));

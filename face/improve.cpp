@@ -274,6 +274,11 @@ void Improvement::measure_before() {
   if (plan_.sizes.are_wanted()) {
     result_.sizes_before = face::size_statistics(mesh_);
     if (options_.tets.empty()) check_wanted(result_.sizes_before->tets_wanted);
+    if (result_.sizes_before->tets_wanted < 1) {
+      note(
+          {"one tet of the wanted size is larger than the whole mesh: is --size a length of this "
+           "file?"});
+    }
   }
   if (options_.rulers) {
     result_.rulers_before = diagonals_ ? measure_rulers(mesh_, *diagonals_, cg_steps())

@@ -9,6 +9,7 @@
 #include "face/arena.h"
 #include "face/bad_tets.h"
 #include "face/mesh_access.h"
+#include "face/plan.h"
 #include "kernel/curved.h"
 #include "kernel/rulers.h"
 #include "kernel/statistics.h"
@@ -51,11 +52,13 @@ std::vector<BadTet> describe(const TetMesh& mesh,
 
 void check(const MeasureOptions& options) {
   face::check_threads(options.threads);
+  face::check_goal(options.goal);
   find_measures(options.measure);
 }
 
 Measurement measure(Mesh mesh, const MeasureOptions& options) {
   const auto measures = find_measures(options.measure);
+  face::check_goal(options.goal);
   return face::on_threads(options.threads, [&] {
     Measurement result;
     const std::filesystem::path file = mesh.file();
@@ -63,16 +66,16 @@ Measurement measure(Mesh mesh, const MeasureOptions& options) {
     const std::vector<std::int64_t> names = data.tet_numbers;
     MeshData second_order = data.mid_nodes.empty() ? MeshData() : data;
     std::vector<std::uint32_t> numbers;
-    const TetMesh built =
-        face::build_located(file, data,
-                            {.sorted = false,
-                             .report = &result.build,
-                             .tet_numbers = options.bad_tets ? &numbers : nullptr});
+    TetMesh built = face::build_located(file, data,
+                                        {.sorted = false,
+                                         .report = &result.build,
+                                         .tet_numbers = options.bad_tets ? &numbers : nullptr});
+    if (!(options.goal == Goal{})) built.set_standard(built.standard().with_goal(options.goal));
     if (!second_order.mid_nodes.empty()) {
       built.scale().to_work(second_order.points);
       result.curved = curved_statistics(second_order, built);
     }
-    result.statistics = compute_statistics(built);
+    result.statistics = compute_statistics(built, options.goal);
     result.notes = describe(find_unjoined(built), built.vertex_count());
     if (options.rulers) result.rulers = measure_rulers(built);
     for (const QualityMeasure* each : measures) result.measures.push_back(summarize(built, *each));

@@ -27,6 +27,13 @@ Schedule find_schedule(const Options& options) {
 
 }  // namespace
 
+void check_goal(const Goal& goal) {
+  if (is_sound(goal)) return;
+  throw OptionError("goal", fmt::format("goal: {},{} is no goal: the smallest angle is above 0 "
+                                        "and at most 70 degrees, the largest 71 to below 180",
+                                        goal.min_angle, goal.max_angle));
+}
+
 Plan::Plan(const Options& options)
     : registry(load_registry(options.plugin, options.operators)),
       schedule(find_schedule(options)),
@@ -38,11 +45,7 @@ Plan::Plan(const Options& options)
       sizes(options) {
   check_threads(options.threads);
   check_regions(options);
-  if (!is_sound(options.goal)) {
-    throw OptionError("goal", fmt::format("goal: {},{} is no goal: the smallest angle is above 0 "
-                                          "and at most 70 degrees, the largest 71 to below 180",
-                                          options.goal.min_angle, options.goal.max_angle));
-  }
+  check_goal(options.goal);
   try {
     standard = registry.standard(options.measure, options.goal, 0);
     const bool has_price = standard.terms() != Standard::Terms::sine;

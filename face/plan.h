@@ -15,6 +15,9 @@
 
 namespace tetmend::face {
 
+/// @throws OptionError for angles that no tets have
+void check_goal(const Goal& goal);
+
 /// What the options stand for. Making it finds their mistakes.
 struct Plan {
   Registry registry;

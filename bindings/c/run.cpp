@@ -221,7 +221,8 @@ const char* tetmend_ruler_name(int ruler) {
 tetmend_status tetmend_measure(tetmend_mesh* mesh, tetmend_statistics* statistics) {
   return guarded(mesh, [&](tetmend_mesh& handle) {
     need(statistics, "statistics");
-    Measurement measured = measure(settle(handle), {.threads = handle.options.threads});
+    Measurement measured =
+        measure(settle(handle), {.goal = handle.options.goal, .threads = handle.options.threads});
     *statistics = to_c(measured.statistics, measured.rulers);
     handle.notes = std::move(measured.notes);
   });

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include <tetmend/curved.h>
+#include <tetmend/goal.h>
 #include <tetmend/limit.h>
 #include <tetmend/mesh.h>
 #include <tetmend/rulers.h>
@@ -21,13 +22,14 @@ namespace tetmend {
 /// What measure() is to find out besides the statistics.
 struct MeasureOptions {
   std::vector<std::string> measure = {};  ///< names of further measures, see measures()
+  Goal goal;                              ///< a tet that misses it is bad
   bool rulers = true;                     ///< give Measurement::rulers
   bool limit = false;     ///< prove what the surface allows; seconds for a large mesh
   bool bad_tets = false;  ///< give Measurement::bad_tets; takes as long as `limit`
   int threads = 1;        ///< 1 to 1024; the result is the same for every number
 };
 
-/// A tet that misses the goal of 30 and 150 degrees.
+/// A tet that misses the goal.
 struct BadTet {
   std::size_t tet = 0;      ///< number, from 0
   std::int64_t number = 1;  ///< what the file calls it; from 1 where files do not number tets
@@ -54,7 +56,7 @@ struct Measurement {
 
 /// Measures a mesh, and finds out whether its topology is sound. Move it in where it is not needed
 /// any more: otherwise it is copied.
-/// @throws OptionError for an unknown measure; Error, with the place in the file or the number of
+/// @throws OptionError for an unknown measure, or a goal that is none; Error, with the place in the file or the number of
 /// the tet, for a mesh without tets or of broken topology: a face has more than two tets, or two
 /// tets lie on the same side of a face.
 TETMEND_API Measurement measure(Mesh mesh, const MeasureOptions& options = {});

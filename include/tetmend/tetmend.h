@@ -270,7 +270,7 @@ typedef struct tetmend_statistics {
 /** "mean_ratio", ... of ruler 0 to TETMEND_RULERS - 1; null for another number. */
 TETMEND_API const char* tetmend_ruler_name(int ruler);
 
-/** Of the mesh as it is, for a goal of 30 and 150 degrees. Takes seconds for a large mesh. */
+/** Of the mesh as it is, for the goal of its options. Takes seconds for a large mesh. */
 TETMEND_API tetmend_status tetmend_measure(tetmend_mesh* mesh, tetmend_statistics* statistics);
 /** Of the mesh before and after the last run. Either may be null. */
 TETMEND_API tetmend_status tetmend_get_statistics(tetmend_mesh* mesh, tetmend_statistics* before,

@@ -35,6 +35,20 @@ TEST_CASE("tetmend adapt writes a mesh and says how well its edges keep to the s
   CHECK(report["sizes"]["after"]["in_range"] > report["sizes"]["before"]["in_range"]);
 }
 
+TEST_CASE("a dry run of tetmend adapt says what the sizes ask for, and writes nothing") {
+  const auto done = run_program({"adapt", kMesh, "--size", "0.5x", "--dry-run"});
+  CHECK(done.status == 0);
+  CHECK(done.out.find("tets would fill the mesh") != std::string::npos);
+}
+
+TEST_CASE("sizes larger than the whole mesh are noted") {
+  const auto done = run_program({"adapt", kMesh, "--size", "1e6", "--dry-run"});
+  CHECK(done.status == 0);
+  CHECK(done.out.find("is larger than the whole mesh") != std::string::npos);
+  const auto fitting = run_program({"adapt", kMesh, "--size", "1x", "--dry-run"});
+  CHECK(fitting.out.find("is larger than the whole mesh") == std::string::npos);
+}
+
 TEST_CASE("tetmend adapt without a size, or with one that is none, is wrong usage") {
   const std::string out = temporary("none.mesh");
   CHECK(run_program({"adapt", kMesh, "-o", out}).status == 2);

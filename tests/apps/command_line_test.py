@@ -106,6 +106,19 @@ class CommandLine(unittest.TestCase):
         self.assertIn("peak memory", all_of_it)
         self.assertEqual((self.folder / "a.mesh").read_bytes(), (self.folder / "b.mesh").read_bytes())
 
+    def test_quality_goes_by_the_goal_that_is_asked_for(self) -> None:
+        found = json.loads(self.run_program("quality", SHEET, "--json", "--goal", "10").stdout)
+        self.assertEqual(found["goal"], {"min_angle": 10, "max_angle": 170})
+        self.assertLess(found["n_bad"], json.loads(self.run_program("quality", SHEET, "--json").stdout)["n_bad"])
+        self.assertIn("below 10 or above 170 degrees", self.run_program("quality", SHEET, "--goal", "10").stdout)
+        wrong = self.run_program("quality", SHEET, "--goal", "80,90")
+        self.assertEqual((wrong.returncode, "is no goal" in wrong.stderr), (2, True))
+
+    def test_convert_makes_the_folder_and_can_be_silent(self) -> None:
+        done = self.run_program("convert", SHEET, TWO, "--to", "vtu", "--into", "a/b", "-q")
+        self.assertEqual((done.returncode, done.stdout), (0, ""))
+        self.assertEqual(sorted(file.name for file in (self.folder / "a/b").iterdir()), ["sheet.vtu", "two_materials.vtu"])
+
     def test_a_dry_run_writes_nothing_and_says_what_would_be_kept(self) -> None:
         done = self.run_program("improve", TWO, "-o", "a.mesh", "--dry-run", "--protect", "label:1", "--trace", "t.trace")
         self.assertEqual((done.returncode, done.stderr), (0, ""))

@@ -34,6 +34,21 @@ TEST_CASE("a mesh is measured as the kernel does, and stays as it is") {
   CHECK(!measure(mesh).limit);
 }
 
+TEST_CASE("bad tets are counted, listed and bounded by the goal that is asked for") {
+  const Mesh mesh = load(asset("sheet.mesh"));
+  const Goal goal = {10, 170};
+  const Measurement measured = measure(mesh, {.goal = goal, .limit = true, .bad_tets = true});
+  const std::size_t bad = measured.statistics.n_bad;
+  CHECK(bad == compute_statistics(TetMesh(read_mesh(asset("sheet.mesh"))), goal).n_bad);
+  CHECK(bad < measure(mesh).statistics.n_bad);
+  CHECK(measured.bad_tets.size() == bad);
+  CHECK(measured.limit->n_bad == bad);
+  for (const BadTet& tet : measured.bad_tets) {
+    CHECK((tet.theta_min < 10 || tet.theta_max > 170));
+  }
+  CHECK_THROWS_AS(measure(mesh, {.goal = {80, 90}}), OptionError);
+}
+
 TEST_CASE("a measure that is unknown is found out, and each that is listed is known") {
   CHECK_THROWS_AS(measure(Mesh(two_tet_arrays()), {.measure = {"beauty"}}), OptionError);
   CHECK(message_of([] { check(MeasureOptions{.measure = {"beauty"}}); }).starts_with("measure: "));

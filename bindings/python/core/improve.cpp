@@ -124,10 +124,12 @@ py::tuple improve_in_place(Mesh& mesh, const Settings& settings, bool rulers, bo
 }
 
 py::dict measure_mesh(const Mesh& mesh, const std::vector<std::string>& measures, bool rulers,
-                      bool limit, bool bad_tets, int threads) {
+                      bool limit, bool bad_tets, const Settings& settings, int threads) {
+  const Goal goal = to_options(settings).goal;
   Measurement measured;
   run_detached([&] {
     measured = measure(mesh, {.measure = measures,
+                              .goal = goal,
                               .rulers = rulers,
                               .limit = limit,
                               .bad_tets = bad_tets,
@@ -186,7 +188,7 @@ void add_improve(py::module_& module) {
     return made;
   });
   module.def("measure", &measure_mesh, "mesh"_a, "measures"_a, "rulers"_a, "limit"_a, "bad_tets"_a,
-             "threads"_a);
+             "settings"_a, "threads"_a);
   module.def("measures", [] {
     std::vector<std::pair<std::string, std::string>> made;
     for (const Measure& each : measures()) made.emplace_back(each.name, each.help);

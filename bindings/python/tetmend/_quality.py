@@ -14,6 +14,7 @@ from tetmend import _core
 from tetmend._figures import Statistics
 from tetmend._html import quality_as_html
 from tetmend._mesh import Mesh, mesh_in
+from tetmend._options import to_settings
 
 
 @dataclass(frozen=True)
@@ -59,11 +60,11 @@ class Quality:
 
 
 def quality(mesh: Mesh | ArrayLike, tets: ArrayLike | None = None, *, labels: ArrayLike | None = None,
-            measures: str | Sequence[str] = (), rulers: bool = True, limit: bool = False, bad_tets: bool = False,
+            measures: str | Sequence[str] = (), goal: float | tuple[float, float] | str | None = None, rulers: bool = True, limit: bool = False, bad_tets: bool = False,
             threads: int = 1) -> Quality:
     """Measures a Mesh or that of a Result, or quality(points, tets).
 
-    measures: names of further measures, see `tetmend quality --help`. limit: prove what the surface allows. bad_tets: list them,
+    measures: names of further measures, see `tetmend quality --help`. goal: a tet that misses it is bad, as of improve(). limit: prove what the surface allows. bad_tets: list them,
     with reasons. Raises Error for a mesh without tets or of broken topology.
 
     >>> found = quality([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], [[0, 1, 2, 3]], bad_tets=True)
@@ -80,7 +81,7 @@ def quality(mesh: Mesh | ArrayLike, tets: ArrayLike | None = None, *, labels: Ar
         raise TypeError("a Mesh has its own tets and labels")
     names = [measures] if isinstance(measures, str) else list(measures)
     try:
-        figures = _core.measure(mesh._core, names, rulers, limit, bad_tets, threads)
+        figures = _core.measure(mesh._core, names, rulers, limit, bad_tets, to_settings({"goal": goal}), threads)
     except _core.OptionError as error:
         raise _core.OptionError(str(error).replace("measure:", "measures:", 1)) from None
     return Quality(Statistics(figures["statistics"]), figures["measures"], figures["limit"],
