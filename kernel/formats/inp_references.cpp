@@ -594,6 +594,10 @@ InpPins find_pins(const InpLines& lines, const InpMesh& mesh, InpSets& sets, con
   }
   mark_members_of_small_sets(mesh, of_nodes, marks);
   mark_single_members(mesh, of_nodes, marks);
+  for (const InpSet& set : sets.all) {
+    if (!set.is_unsorted) continue;
+    for (const std::uint32_t v : set.members) marks[v] = 1;
+  }
   for (const InpReference& each : references.points) marks[each.point] = 1;
   if (std::find(marks.begin(), marks.end(), 1) == marks.end()) return {};
   Unmarking(mesh, marks).run(faces, part_of);
