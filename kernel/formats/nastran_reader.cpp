@@ -66,6 +66,10 @@ class Reader {
     mesh_.deck.resize(nastran_pieces);
     mesh_.deck[nastran_front] = sources_.front();
     mesh_.deck[nastran_end] = sources_.end();
+    if (nastran_name(sources_.end()) == "BEGIN") {
+      mesh_.notes.emplace_back(
+          "the bulk data of superelements stay as they are: what they say is not read");
+    }
     if (mesh_.deck[nastran_end].empty()) {
       mesh_.notes.emplace_back("the bulk data have no ENDDATA: is the file complete?");
     } else if (mesh_.deck[nastran_front].empty()) {
@@ -81,9 +85,7 @@ class Reader {
     label_blank_properties();
     require_points();
     note_partial();
-    if (mesh_.deck == std::vector<std::string>{"BEGIN BULK\n", "", "ENDDATA\n", "", "", ""}) {
-      mesh_.deck.clear();  // the writer's own
-    }
+    mesh_.deck[nastran_greatest] = greatest_numbers();
     mesh_.variant = kNastran;
     return std::move(mesh_);
   }
@@ -126,7 +128,7 @@ class Reader {
   void read_points() {
     for (const NastranStretch& stretch : sources_.stretches()) {
       if (stretch.includes != 0) continue;
-      NastranLines lines(stretch.begin, stretch.end);
+      NastranLines lines = sources_.lines(stretch);
       while (!lines.at_end()) {
         if (!lines.begins_with("GR") && !lines.begins_with("CORD")) {
           lines.line();
@@ -177,7 +179,7 @@ class Reader {
     }
     places_.push_back(card_.text.data());
     if (is_blank(5) && !is_long && system == 0) return keep_comments();
-    mesh_.deck[nastran_points] += lines_of(card_.text);
+    mesh_.deck[nastran_points] += card_text();
     // Output coordinates, constraints, superelement: only constraints mean the place.
     std::int64_t components = 0;
     const bool is_held = !card_.field(6).empty() &&
@@ -203,10 +205,10 @@ class Reader {
   /// GRDSET means all points whose own field is blank. It may stand behind them.
   void apply_default_system() {
     for (std::uint32_t i = 0; i < places_.size(); ++i) {
-      NastranLines(places_[i], sources_.file_of(places_[i]).end()).read(card_);
+      sources_.lines_from(places_[i], sources_.file_of(places_[i]).end()).read(card_);
       if (!card_.field(1).empty()) continue;
       waiting_[i] = default_system_;
-      if (is_blank(5)) mesh_.deck[nastran_points] += lines_of(card_.text);
+      if (is_blank(5)) mesh_.deck[nastran_points] += card_text();
     }
   }
 
@@ -237,6 +239,12 @@ class Reader {
     waiting_.erase(i);
   }
 
+  std::string card_text() const {
+    std::string text = lines_of(card_.text);
+    for (const std::string_view line : card_.strays) text += lines_of(line);
+    return text;
+  }
+
   static std::string lines_of(std::string_view text) {
     std::string lines(text);
     if (!lines.ends_with('\n')) lines += '\n';
@@ -254,7 +262,7 @@ class Reader {
   void read_rest() {
     for (const NastranStretch& stretch : sources_.stretches()) {
       is_written_ = sources_.is_inlined(stretch.inclusion);
-      NastranLines lines(stretch.begin, stretch.end);
+      NastranLines lines = sources_.lines(stretch);
       if (stretch.includes != 0) {
         if (is_written_ && !sources_.is_inlined(stretch.includes)) keep_include(stretch);
         continue;
@@ -272,14 +280,23 @@ class Reader {
   void read_card(NastranLines& lines) {
     const char first = *lines.position();
     if (first == '$') return keep(lines.line());
+    const bool is_stray = sources_.is_stray(lines.position());
     lines.read(card_);
-    if (card_.name == "GRID") return;
+    if (is_stray) return;
+    const bool was_of_mesh = std::exchange(is_of_mesh_, card_.name == "GRID");
+    if (is_of_mesh_) return;
+    if (card_.name.starts_with('=') && was_of_mesh) {
+      fail({},
+           "points and elements that repeat the card before cannot be read: expected GRID and "
+           "elements without '='");
+    }
     if (card_.name.empty() || first == '+') {
       if (first == '+' || !is_blank(0))
         fail({}, "a continuation without a card: expected the name of a card");
       return;
     }
-    if (!read_element()) keep_card();
+    is_of_mesh_ = read_element();
+    if (!is_of_mesh_) keep_card();
   }
 
   /// In a file whose INCLUDE stays, lines stay as well.
@@ -293,21 +310,25 @@ class Reader {
     }
   }
 
+  /// The kinds that the name of the card may mean: of first order, then of second.
+  void find_kinds() {
+    name_of_kinds_ = card_.name;
+    kinds_.clear();
+    std::string_view name = card_.name;
+    if (name.ends_with('_')) name.remove_suffix(1);  // meshio names those of second order "CTETRA_"
+    for (const NastranCard& card : kNastranCards) {
+      if (card.name == name) kinds_.push_back(element_kind(card.vtk_type));
+    }
+  }
+
   /// False if the card is no element of ours.
   bool read_element() {
-    const auto is_ours = [this](const NastranCard& card) { return card.name == card_.name; };
-    if (std::none_of(kNastranCards.begin(), kNastranCards.end(), is_ours)) return false;
-    const bool is_volume = card_.name != "CTRIA3" && card_.name != "CTRIA6" &&
-                           card_.name != "CQUAD4" && card_.name != "CQUAD8";
-    row_.kind = nullptr;
-    std::size_t nodes = 0;
-    for (const NastranCard& card : kNastranCards) {
-      const ElementKind& kind = *element_kind(card.vtk_type);
-      if (is_ours(card) && (row_.kind == nullptr || !is_blank(2 + nodes))) {
-        row_.kind = &kind;
-        nodes = kind.width;
-      }
-    }
+    if (card_.name != name_of_kinds_) find_kinds();
+    if (kinds_.empty()) return false;
+    row_.kind = kinds_.front();
+    if (kinds_.size() > 1 && has_nodes_from(row_.kind->width)) row_.kind = kinds_.back();
+    const std::size_t nodes = row_.kind->width;
+    const bool is_volume = row_.kind->dimension == 3;
     row_.place = card_.text.data();
     row_.number = integer(0, "the number of an element", 1, INT64_MAX);
     row_.label = 0;
@@ -315,7 +336,7 @@ class Reader {
       row_.label = static_cast<Label>(integer(1, "the number of a property", 0, INT32_MAX));
       if (row_.label == 0) mesh_.deck[nastran_zero] = "0";
     }
-    if (is_volume && !is_blank(2 + nodes)) {
+    if (is_volume && has_nodes_from(nodes)) {
       fail(card_.field(2 + nodes),
            fmt::format("{} has more than {} points: expected none of higher order", card_.name,
                        nodes));
@@ -329,17 +350,31 @@ class Reader {
     add_element(is_partial);
     if (card_.field(1).empty()) without_property_.push_back(elements_.back());
     if (is_partial || !is_blank(2 + nodes)) {
-      mesh_.deck[nastran_elements] += lines_of(card_.text);
+      mesh_.deck[nastran_elements] += card_text();
     } else {
       keep_comments();
     }
     return true;
   }
 
+  /// A mid-side node that is left out: a blank field, or 0.
+  bool is_left_out(std::size_t k) const {
+    std::int64_t number = 1;
+    return card_.field(2 + k).empty() ||
+           (nastran_integer(card_.field(2 + k), number) && number == 0);
+  }
+
   /// Some mid-side nodes, not all: Nastran has straight edges there.
   bool leaves_out_nodes() const {
     for (std::size_t k = row_.kind->corners; k < row_.kind->width; ++k) {
-      if (card_.field(2 + k).empty()) return true;
+      if (is_left_out(k)) return true;
+    }
+    return false;
+  }
+
+  bool has_nodes_from(std::size_t first) const {
+    for (std::size_t k = first; 2 + k < card_.fields.size(); ++k) {
+      if (!is_left_out(k)) return true;
     }
     return false;
   }
@@ -372,6 +407,12 @@ class Reader {
              fmt::format("'{}' is not the number of a point: expected one of GRID", number));
       }
     }
+  }
+
+  std::string greatest_numbers() const {
+    std::int64_t point = 0;
+    for (const std::int64_t number : mesh_.point_numbers) point = std::max(point, number);
+    return fmt::format("{} {}", point, elements_.empty() ? 0 : elements_.back().number);
   }
 
   /// Solvers want numbers that no two elements share; we need it of those of one kind.
@@ -434,6 +475,7 @@ class Reader {
 
   void keep_card() {
     keep(card_.text);
+    for (const std::string_view line : card_.strays) keep(line);
     std::int64_t number = 0;
     if (card_.name.starts_with('P') && nastran_integer(card_.field(0), number) && number > 0 &&
         number <= INT32_MAX) {
@@ -516,6 +558,9 @@ class Reader {
   ElementSorter sorter_;
   NastranCardText card_;
   ElementRow row_;
+  std::string name_of_kinds_;  // of the card that they are of
+  std::vector<const ElementKind*> kinds_;
+  bool is_of_mesh_ = false;          // the card before: a point or an element
   bool is_written_ = true;           // what is read now is written again, line by line
   std::vector<const char*> places_;  // of points
   std::vector<Element> elements_;
