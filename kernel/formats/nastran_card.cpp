@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::size_t kSmall = 8;
 
-bool is_blank(char c) {
+bool is_padding(char c) {
   return c == ' ' || (c >= '\t' && c <= '\r');
 }
 
@@ -135,7 +135,7 @@ std::string_view mark_of(std::string_view whole) {
 }
 
 /// Of the continuation "+A1" that is "A1".
-std::string_view key_of(std::string_view line) {
+std::string_view key_of_name(std::string_view line) {
   const std::string_view name = trimmed_field(first_field(without_comment(line)));
   return name.empty() ? name : name.substr(1);
 }
@@ -145,8 +145,8 @@ std::string_view key_of(std::string_view line) {
 std::string_view trimmed_field(std::string_view text) {
   std::size_t begin = 0;
   std::size_t end = text.size();
-  while (begin != end && is_blank(text[begin])) ++begin;
-  while (begin != end && is_blank(text[end - 1])) --end;
+  while (begin != end && is_padding(text[begin])) ++begin;
+  while (begin != end && is_padding(text[end - 1])) --end;
   return text.substr(begin, end - begin);
 }
 
@@ -179,7 +179,7 @@ std::string_view NastranStrays::behind(std::string_view line) const {
 }
 
 bool NastranStrays::follows(std::string_view line, std::string_view before) {
-  const std::string_view key = key_of(line);
+  const std::string_view key = key_of_name(line);
   const std::string_view mark = mark_of(before);
   return key.empty() || key == mark || (!mark.empty() && key == mark.substr(1));
 }
@@ -199,7 +199,7 @@ void NastranStrays::add(const char* begin, const char* end) {
     const char first = lines.initial();
     const std::string_view line = lines.line();
     if (is_blank_text(without_comment(line))) continue;
-    const bool is_named = (first == '+' || first == '*') && !key_of(line).empty();
+    const bool is_named = (first == '+' || first == '*') && !key_of_name(line).empty();
     // What follows one of these by its name is one, too.
     is_apart = is_named && (is_apart || !follows(line, before));
     if (is_apart) apart.push_back(line);
@@ -210,7 +210,7 @@ void NastranStrays::add(const char* begin, const char* end) {
   std::unordered_map<const char*, std::string_view> behind;
   std::unordered_set<const char*> in_chain;  // their owner may be one of them
   for (const std::string_view line : apart) {
-    const auto owner = owners.find(key_of(line));
+    const auto owner = owners.find(key_of_name(line));
     if (owner != owners.end()) behind.try_emplace(owner->second, line);
     in_chain.insert(line.data());
   }
