@@ -24,6 +24,7 @@
 #include "kernel/formats/inp_mesh.h"
 #include "kernel/formats/inp_parts.h"
 #include "kernel/formats/inp_pieces.h"
+#include "kernel/formats/inp_pins.h"
 #include "kernel/formats/inp_references.h"
 #include "kernel/formats/inp_sets.h"
 
