@@ -150,7 +150,7 @@ class Reader : private NastranCardReader {
     row_.label = 0;
     if (!card_.field(1).empty()) {
       row_.label = static_cast<Label>(integer(1, "the number of a property", 0, INT32_MAX));
-      if (row_.label == 0) mesh_.deck[nastran_zero] = "0";
+      if (row_.label == 0) mesh_.deck[nastran_zero].assign(1, '0');
     }
     if (is_volume && has_nodes_from(nodes)) {
       fail(card_.field(2 + nodes),
