@@ -83,8 +83,12 @@ class Curver {
     return count;
   }
 
-  /// Nodes that hold these tets, each once.
-  std::size_t count_holding(const std::vector<std::uint32_t>& over) const {
+  /// Nodes that hold some tets, each once.
+  struct Holding {
+    std::size_t all = 0;
+    std::size_t kept = 0;  ///< that straightening does not move either
+  };
+  Holding count_holding(const std::vector<std::uint32_t>& over) const {
     std::set<std::uint32_t> nodes;
     for (const std::uint32_t t : over) {
       const CurvedTet tet(data_, mid_nodes_, data_.tets[t]);
@@ -93,7 +97,10 @@ class Curver {
         if (is_held && tet.bends[e] != Point::Zero()) nodes.insert(tet.nodes[e]);
       }
     }
-    return nodes.size();
+    const auto kept = std::count_if(nodes.begin(), nodes.end(), [this](std::uint32_t node) {
+      return hold_of(node) == Hold::stays;
+    });
+    return {nodes.size(), static_cast<std::size_t>(kept)};
   }
 
   /// Edges whose nodes are elsewhere than they were.
@@ -211,8 +218,21 @@ void curve_all(Curver& curver, std::vector<std::uint32_t>& over) {
   }
 }
 
-void tell(const Curving& done, std::size_t before, std::size_t holding, bool straightens,
+void tell(const Curving& done, std::size_t before, const Curver::Holding& holding, bool straightens,
           std::vector<std::string>& notes) {
+  if (done.left > 0) {
+    std::string note =
+        fmt::format("curved tets that stay turned over: {}; nodes on edges that stay hold them: {}",
+                    done.left, holding.all);
+    if (holding.kept > 0) {
+      note += fmt::format(", {} of them of tets or points that are kept, such as boundary layers",
+                          holding.kept);
+    }
+    if (!straightens && holding.kept < holding.all) {
+      note += "; --straighten makes edges of the surface straight";
+    }
+    notes.push_back(std::move(note));
+  }
   if (done.curved > 0) {
     notes.push_back(fmt::format(
         "edges within the volume that are curved at the end: {}; tets turned over: {} -> {}",
@@ -222,11 +242,6 @@ void tell(const Curving& done, std::size_t before, std::size_t holding, bool str
     notes.push_back(fmt::format("edges of the surface and of walls that are made straight: {}",
                                 done.straightened));
   }
-  if (done.left == 0) return;
-  notes.push_back(fmt::format(
-      "curved tets that stay turned over: {}; nodes on edges that stay hold "
-      "them: {}{}",
-      done.left, holding, straightens ? "" : "; --straighten makes edges of the surface straight"));
 }
 
 }  // namespace

@@ -19,8 +19,9 @@ namespace tetmend::face {
 
 namespace {
 
-/// Up to here a double has all whole numbers.
+/// Up to here a double has all whole numbers, or a float.
 constexpr std::int64_t kMostOfDouble = std::int64_t{1} << 53;
+constexpr std::int64_t kMostOfFloat = std::int64_t{1} << 24;
 
 bool ends_with_word(std::string_view name, std::string_view word) {
   if (name.size() < word.size()) return false;
@@ -45,7 +46,8 @@ bool is_name_of_identifiers(std::string_view name) {
 template <class Value>
 bool to_identifier(Value value, std::int64_t& number) {
   if constexpr (std::is_floating_point_v<Value>) {
-    if (!(std::abs(value) <= static_cast<Value>(kMostOfDouble)) || value != std::floor(value)) {
+    constexpr std::int64_t kMost = std::is_same_v<Value, float> ? kMostOfFloat : kMostOfDouble;
+    if (!(std::abs(value) <= static_cast<Value>(kMost)) || value != std::floor(value)) {
       return false;
     }
   }
@@ -86,7 +88,7 @@ std::int64_t largest_of(const std::vector<const DataArray*>& arrays) {
 
 /// The greatest number that all of the arrays can hold.
 std::int64_t limit_of(const std::vector<const DataArray*>& arrays) {
-  constexpr std::array<std::int64_t, 4> kLimits = {INT32_MAX, INT64_MAX, kMostOfDouble,
+  constexpr std::array<std::int64_t, 4> kLimits = {INT32_MAX, INT64_MAX, kMostOfFloat,
                                                    kMostOfDouble};
   std::int64_t limit = INT64_MAX;
   for (const DataArray* array : arrays) limit = std::min(limit, kLimits[array->values.index()]);
@@ -100,7 +102,6 @@ bool are_identifiers(const DataArray& array) {
   return std::visit(
       [&](const auto& values) {
         using Value = typename std::decay_t<decltype(values)>::value_type;
-        if constexpr (std::is_same_v<Value, float>) return false;
         if (!std::is_integral_v<Value> && !is_name_of_identifiers(array.name)) return false;
         const std::span<const Value> all(values);
         constexpr std::size_t kFirst = 256;  // of a field, some of these are alike

@@ -26,22 +26,65 @@
 namespace tetmend::formats {
 namespace {
 
-// Names, in lower case, under which mesh tools store labels; the first that a file has is taken.
-constexpr std::array<std::string_view, 56> kLabelNames = {
-    "cellentityids", "label",         "labels",          "medit:ref",
-    "gmsh:physical", "tetgen:ref",    "region",          "regionid",
-    "region_id",     "modelregionid", "material",        "materialids",
-    "materialid",    "material_id",   "mat_id",          "matid",
-    "mat",           "physicalids",   "physical",        "tag",
-    "tags",          "cell_tags",     "cell_scalars",    "domain",
-    "subdomain",     "attribute",     "attributes",      "subdomain_id",
-    "subdomainid",   "subdomain_ids", "elementblockids", "elementblockid",
-    "block_id",      "blockid",       "blockids",        "objectid",
-    "object_id",     "partid",        "part_id",         "part_ids",
-    "body_id",       "bodyid",        "body_ids",        "cell_markers",
-    "cell_marker",   "markers",       "element_markers", "elementtag",
-    "element_tag",   "element_tags",  "property_id",     "propertyid",
-    "zone_id",       "geometryids",   "geometry",        "gmsh:geometrical"};
+// Names, as plain_name() has them, under which mesh tools store labels; the first that a file has is
+// taken.
+constexpr std::array<std::string_view, 57> kLabelNames = {"cellentityids",
+                                                          "label",
+                                                          "labels",
+                                                          "medit:ref",
+                                                          "gmsh:physical",
+                                                          "tetgen:ref",
+                                                          "region",
+                                                          "regionid",
+                                                          "elemregion",
+                                                          "elementregion",
+                                                          "modelregionid",
+                                                          "material",
+                                                          "materialids",
+                                                          "materialid",
+                                                          "matid",
+                                                          "mat",
+                                                          "physicalids",
+                                                          "physical",
+                                                          "physicalgroup",
+                                                          "physicalgroups",
+                                                          "tag",
+                                                          "tags",
+                                                          "celltags",
+                                                          "celltag",
+                                                          "cellscalars",
+                                                          "domain",
+                                                          "domainid",
+                                                          "domainids",
+                                                          "subdomain",
+                                                          "attribute",
+                                                          "attributes",
+                                                          "subdomainid",
+                                                          "subdomainids",
+                                                          "elementblockids",
+                                                          "elementblockid",
+                                                          "blockid",
+                                                          "blockids",
+                                                          "objectid",
+                                                          "partid",
+                                                          "partids",
+                                                          "bodyid",
+                                                          "bodyids",
+                                                          "cellmarkers",
+                                                          "cellmarker",
+                                                          "markers",
+                                                          "elementmarkers",
+                                                          "elementtag",
+                                                          "elementtags",
+                                                          "propertyid",
+                                                          "groupid",
+                                                          "elset",
+                                                          "zoneid",
+                                                          "zone",
+                                                          "zones",
+                                                          "geometryids",
+                                                          "geometry",
+                                                          "gmsh:geometrical"};
 
 // How a mesh was divided among processes, and which cells belong to another: no regions.
 constexpr std::array<std::string_view, 9> kDivisionNames = {
@@ -55,8 +98,15 @@ std::string in_lower_case(std::string_view name) {
   return lower;
 }
 
+/// "Region ID", "region_id" and "RegionId" are one name.
+std::string plain_name(std::string_view name) {
+  std::string plain = in_lower_case(name);
+  std::erase_if(plain, [](char c) { return c == '_' || c == ' ' || c == '-'; });
+  return plain;
+}
+
 std::size_t rank_of(std::string_view name) {
-  const auto* found = std::find(kLabelNames.begin(), kLabelNames.end(), in_lower_case(name));
+  const auto* found = std::find(kLabelNames.begin(), kLabelNames.end(), plain_name(name));
   return static_cast<std::size_t>(found - kLabelNames.begin());
 }
 

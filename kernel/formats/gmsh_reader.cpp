@@ -53,8 +53,13 @@ class Reader {
 
  private:
   void read_header() {
-    const std::string_view first = text_.word();
+    std::string_view first = text_.word();
+    while (first.size() > 1 && first[0] == '$' && is_unknown(first)) {  // $Comments may come first
+      pass_over(first);
+      first = text_.word();
+    }
     if (first != "$MeshFormat") {
+      if (first.starts_with('(')) text_.fail("this is a mesh of Fluent, not of Gmsh");
       text_.fail(first.empty() ? "the file is empty: expected $MeshFormat"
                  : first == "$NOD"
                      ? "this is an MSH file of version 1: expected 4.1 or 2.2, as which 'gmsh FILE "
@@ -106,6 +111,16 @@ class Reader {
     }
   }
 
+  /// What a section says is not of the mesh.
+  static bool is_unknown(std::string_view section) {
+    constexpr std::array<std::string_view, 11> kKnown = {
+        "$MeshFormat", "$PhysicalNames", "$Entities", "$PartitionedEntities",
+        "$Nodes",      "$Elements",      "$Periodic", "$ParametricNodes",
+        "$NodeData",   "$ElementData",   "$NOD"};
+    return !section.starts_with("$End") &&
+           std::find(kKnown.begin(), kKnown.end(), section) == kKnown.end();
+  }
+
   void read_section(std::string_view name) {
     if (name.size() < 2 || name.front() != '$' || name.starts_with("$End")) {
       text_.fail(
@@ -118,10 +133,7 @@ class Reader {
       if (source_.binary()) return expect_end(name);
       return skip_to_end(name);
     }
-    const bool known = name == "$PhysicalNames" || name == "$Entities" ||
-                       name == "$PartitionedEntities" || name == "$Nodes" || name == "$Elements" ||
-                       name == "$Periodic" || name == "$ParametricNodes";
-    if (!known) return pass_over(name);
+    if (is_unknown(name)) return pass_over(name);
     const std::string_view section = name;
     if (name == "$ParametricNodes") name = "$Nodes";
     if (seen(name)) text_.fail(fmt::format("{} appears for the second time", in_quotes(name)));

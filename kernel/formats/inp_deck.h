@@ -48,11 +48,12 @@ struct InpPiece {
   std::string text;
   std::vector<InpGroupName> groups;  ///< what is listed; of elements and nodes: named by the line
   std::string more;                  ///< data lines or numbers that are no elements of the mesh
-  std::string type;                  ///< of elements: "C3D10M"; of a face load: "P"
-  std::string suffix;                ///< of a face load, behind the number of the face: "NU"
-  std::string instance;              ///< before the numbers of tets with faces: "Part-1-1."
-  Label block = 0;                   ///< of elements: which parts refer to
-  std::size_t numbering = 0;         ///< that its numbers belong to
+  std::string
+      type;  ///< of elements: "C3D10M"; of a face load: "P"; of a set: kInpUnsorted or empty
+  std::string suffix;         ///< of a face load, behind the number of the face: "NU"
+  std::string instance;       ///< before the numbers of tets with faces: "Part-1-1."
+  Label block = 0;            ///< of elements: which parts refer to
+  std::size_t numbering = 0;  ///< that its numbers belong to
 };
 
 struct InpDeck {
@@ -62,6 +63,9 @@ struct InpDeck {
   std::vector<std::pair<Label, Label>> block_of_part;  ///< {part, block}
   std::vector<InpPiece> pieces;
 };
+
+/// InpPiece::type of a set of nodes that is written as it was: `more` are its lines.
+inline constexpr std::string_view kInpUnsorted = "UNSORTED";
 
 inline constexpr std::string_view kInpDeckName = "Abaqus\n";
 

@@ -6,6 +6,7 @@
 #include <cctype>
 #include <map>
 #include <set>
+#include <span>
 #include <tuple>
 #include <utility>
 
@@ -74,10 +75,10 @@ class Reader {
     std::size_t scope = 0;
     std::size_t instance = 0;  // from 1; 0: none is named
     InpSet* set = nullptr;     // null: one element
-    std::vector<std::uint32_t> one;
+    std::uint32_t one = 0;
 
-    const std::vector<std::uint32_t>& elements() const {
-      return set == nullptr ? one : set->members;
+    std::span<const std::uint32_t> elements() const {
+      return set == nullptr ? std::span(&one, 1) : std::span<const std::uint32_t>(set->members);
     }
   };
 
@@ -86,7 +87,7 @@ class Reader {
     const bool has_prefix = dot != std::string_view::npos;
     std::int64_t number = 0;
     if (to_integer(has_prefix ? text.substr(dot + 1) : text, number)) {
-      Named named{block.scope, block.instance, nullptr, {}};
+      Named named{block.scope, block.instance, nullptr, 0};
       if (has_prefix) named.instance = lines_.find_instance(text.substr(0, dot));
       if (named.instance != 0) {
         named.scope = lines_.instances[named.instance - 1].scope;
@@ -96,12 +97,12 @@ class Reader {
       if (!lines_.scopes[named.scope].is_mesh) return {};
       const std::uint32_t place = mesh_.elements.find(lines_.scopes[named.scope].element(number));
       if (place == InpNumbers::kNone) return {};
-      named.one = {place};
+      named.one = place;
       return {std::move(named)};
     }
     std::vector<Named> found;
     for (InpSet* set : sets_.find_all(false, text, block)) {
-      found.push_back({set->scope, instance_of(*set, text, block), set, {}});
+      found.push_back({set->scope, instance_of(*set, text, block), set, 0});
     }
     return found;
   }
@@ -248,7 +249,7 @@ class Reader {
   /// A set of an assembly may have elements of instances that are not in the mesh, too.
   void add_other_instances(std::string_view text, const InpBlock& block, std::string_view face,
                            std::string_view rest, std::string& lines) {
-    if (block.scope != 0 && !block.is_in_assembly) return;
+    if (others_of_set_.empty() || (block.scope != 0 && !block.is_in_assembly)) return;
     const auto others = others_of_set_.find(inp_key(text));
     if (others == others_of_set_.end()) return;
     for (const std::string& each : others->second) {

@@ -66,13 +66,23 @@ std::size_t find_comma(std::string_view text) {
   return text.size();
 }
 
+/// What is left behind blanks and lines of comments.
+std::string_view behind_comments(std::string_view text) {
+  for (;;) {
+    const std::string_view rest =
+        text.substr(std::min(text.find_first_not_of(" \t\r\n"), text.size()));
+    if (!rest.starts_with("**")) return text;
+    text = rest.substr(std::min(rest.find('\n'), rest.size()));
+  }
+}
+
 void read_parameters(InpBlock& block) {
   std::string_view rest = trimmed(block.keyword_text()).substr(1);
   const std::size_t first = find_comma(rest);
   block.keyword = keyword_name(rest.substr(0, first));
   rest.remove_prefix(first);
   while (!rest.empty()) {
-    rest.remove_prefix(1);
+    rest = behind_comments(rest.substr(1));
     const std::size_t length = find_comma(rest);
     const std::string_view field = rest.substr(0, length);
     const std::size_t equals = std::min(field.find('='), field.size());
@@ -222,6 +232,10 @@ std::string_view InpFields::rest() const {
   const char* stop = line_end_;
   while (stop != next_ && is_blank(stop[-1])) --stop;
   return {next_ - 1, static_cast<std::size_t>(stop - next_ + 1)};
+}
+
+std::string InpFields::line_place() const {
+  return file_.line_place(place_);
 }
 
 void InpFields::fail(std::string_view reason) const {
@@ -395,14 +409,17 @@ void InpLines::read(const InputFile& file, const std::filesystem::path& path, in
     add(block, path);
     block.begin = next;
     next = after_line(next, end);
-    // A keyword line that ends in a comma goes on, if only behind empty lines.
+    // A keyword line that ends in a comma goes on, if only behind empty lines and comments. Names of
+    // parameters begin with no digit: such a line is data.
     bool goes_on =
         trimmed({block.begin, static_cast<std::size_t>(next - block.begin)}).ends_with(',');
     while (goes_on && next != end && !is_keyword(next, line_end(next, end))) {
       const char* line = next;
-      next = after_line(next, end);
-      const std::string_view more = trimmed({line, static_cast<std::size_t>(next - line)});
-      goes_on = more.empty() || more.ends_with(',');
+      const char* line_after = after_line(next, end);
+      const std::string_view more = trimmed({line, static_cast<std::size_t>(line_after - line)});
+      if (!more.empty() && more[0] >= '0' && more[0] <= '9') break;
+      next = line_after;
+      goes_on = more.empty() || more.starts_with("**") || more.ends_with(',');
     }
     block.data = next;
   }

@@ -99,6 +99,8 @@ class InpFields {
   /// What is left of the line, from the comma on.
   std::string_view rest() const;
   const char* place() const { return place_; }
+  /// "deck.inp:7", of the present line.
+  std::string line_place() const;
   [[noreturn]] void fail(std::string_view reason) const;
 
  private:

@@ -125,6 +125,13 @@ class Maker {
     });
   }
 
+  /// Those within the line of a keyword, which is written anew.
+  void add_comments_of_keyword(const InpBlock& block) {
+    for_each_line(block.keyword_text(), [&](std::string_view line) {
+      if (trimmed(line).starts_with("**")) add_text(line);
+    });
+  }
+
   static bool has_data(std::string_view lines) {
     bool found = false;
     for_each_line(lines, [&](std::string_view line) { found = found || !is_comment(line); });
@@ -173,6 +180,7 @@ class Maker {
 
   void add_nodes(const InpBlock& block) {
     const InpSet* set = in_.sets.of_block(block);
+    add_comments_of_keyword(block);
     if (nodes_done_.insert(block.scope).second) {
       InpPiece& piece =
           add_piece(InpPieceKind::nodes, block.scope, keyword_line(block, {"INPUT", "NSET"}));
@@ -200,9 +208,11 @@ class Maker {
   void add_element_block(const InpBlock& block) {
     const std::size_t number = number_of_block_[&block];
     const std::uint32_t home = in_.home_of_block[number];
+    const bool as_is = block.input == nullptr;
+    const bool is_new = home_done_.insert(home).second;
+    if (!is_new || !as_is) add_comments_of_keyword(block);
     add_comments(block, true);
-    if (home_done_.insert(home).second) {
-      const bool as_is = block.input == nullptr;
+    if (is_new) {
       InpPiece& piece = add_piece(InpPieceKind::elements, block.scope,
                                   as_is ? as_it_stands(block) : keyword_line(block, {"INPUT"}));
       piece.type = in_.mesh.blocks[number].name;
@@ -215,6 +225,10 @@ class Maker {
 
   void add_set(const InpBlock& block) {
     const InpSet* set = in_.sets.of_block(block);
+    if (block.find("UNSORTED") != nullptr && block.input == nullptr) {
+      return add_unsorted(block, *set);
+    }
+    add_comments_of_keyword(block);
     add_comments(block, true);
     if (set->is_kept && set_done_.insert(set).second) {
       const auto kind = set->of_nodes ? InpPieceKind::node_set : InpPieceKind::element_set;
@@ -228,6 +242,14 @@ class Maker {
       }
     }
     add_comments(block, false);
+  }
+
+  /// Nodes whose order matters: the lines as they are.
+  void add_unsorted(const InpBlock& block, const InpSet& set) {
+    InpPiece& piece = add_piece(InpPieceKind::node_set, set.scope, as_it_stands(block));
+    piece.type = kInpUnsorted;
+    piece.more = std::string(block.data, block.end);
+    if (set_done_.insert(&set).second) piece.groups = set.groups;
   }
 
   void add_uses(const InpBlock& block) {

@@ -24,6 +24,7 @@
 #include "kernel/formats/inp_mesh.h"
 #include "kernel/formats/inp_parts.h"
 #include "kernel/formats/inp_pieces.h"
+#include "kernel/formats/inp_pins.h"
 #include "kernel/formats/inp_references.h"
 #include "kernel/formats/inp_sets.h"
 
@@ -61,6 +62,7 @@ class Reader {
     check();
     data_.variant = kInp;
     data_.notes = faces_.notes;
+    data_.notes.insert(data_.notes.end(), sets_.notes.begin(), sets_.notes.end());
     note_other_scopes();
     const InpReferences references = find_references(lines_, kept_blocks(), mesh_);
     drop_sets_of_faces(references);
@@ -87,6 +89,10 @@ class Reader {
                          [&](const InpBlock& block) { return block.keyword == keyword; });
     };
     if (lines_.blocks.empty()) fail("the file is empty: expected *NODE");
+    const std::string_view first = trimmed(lines_.blocks[0].text());
+    if (lines_.blocks[0].keyword.empty() && !first.empty() && first[0] >= '0' && first[0] <= '9') {
+      fail("this is a file of AVS (UCD), not of Abaqus: ParaView saves it as .vtu or .vtk");
+    }
     if (!has("NODE")) fail("*NODE is missing: expected a deck with nodes and elements");
   }
   /// Parts with elements that are not in the mesh.

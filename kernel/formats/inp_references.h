@@ -4,14 +4,11 @@
 
 #include <cstdint>
 #include <set>
-#include <span>
 #include <string>
 #include <vector>
 
-#include "kernel/formats/inp_faces.h"
 #include "kernel/formats/inp_lines.h"
 #include "kernel/formats/inp_mesh.h"
-#include "kernel/formats/inp_sets.h"
 
 namespace tetmend::formats {
 
@@ -30,16 +27,7 @@ struct InpReferences {
 InpReferences find_references(const InpLines& lines, const std::vector<const InpBlock*>& kept,
                               const InpMesh& mesh);
 
-/// Points that must be kept, and who says so.
-struct InpPins {
-  std::vector<std::uint32_t> points;  ///< ascending
-  std::string remarks;                ///< see deck_remarks(), each with a line break
-};
-
-/// Of the points that are named by number, and of those in a set which holds no tet around them
-/// wholly, the ones that would not stay anyhow: those on no face that stays.
-/// @param part_of of each element of the mesh: faces between two parts stay, and so do `faces`
-InpPins find_pins(const InpLines& lines, const InpMesh& mesh, InpSets& sets, const InpFaces& faces,
-                  const InpReferences& references, std::span<const std::uint32_t> part_of);
+/// False for a keyword whose fields are not known: all that could be nodes counts.
+bool inp_knows_nodes_of(const InpBlock& block);
 
 }  // namespace tetmend::formats

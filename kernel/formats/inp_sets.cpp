@@ -166,6 +166,7 @@ void InpSets::read(const InpBlock& block) {
   }
   set->is_listed = true;
   set->is_internal = block.find("INTERNAL") != nullptr;
+  set->is_unsorted = set->is_unsorted || block.find("UNSORTED") != nullptr;
   InpFields fields(block);
   if (set->of_nodes && block.find("ELSET") != nullptr) {
     add_nodes_of(block, *set);
@@ -183,16 +184,23 @@ void InpSets::read(const InpBlock& block) {
 
 void InpSets::read_range(InpFields& fields, const InpBlock& block, InpSet& set) {
   std::int64_t first = fields.integer("the first number of a range");
-  const std::int64_t last = fields.more() ? fields.integer("the last number of a range") : first;
+  std::int64_t last = fields.more() ? fields.integer("the last number of a range") : first;
   const std::int64_t step = fields.more() ? fields.integer("the step of a range") : 1;
   if (step == 0) fields.fail("'0' is no step of a range: expected 1 or more");
   const InpScope& scope = lines_.scopes[block.scope];
   const std::int64_t offset = set.of_nodes ? scope.node_offset : scope.element_offset;
   const std::int64_t most = set.of_nodes ? std::min(scope.most_node, mesh_.nodes.most())
                                          : std::min(scope.most_element, mesh_.most_element());
-  if (last < first || last > most) {
-    fields.fail(fmt::format("'{}' is not the last number of a range: expected {} to {}", last,
-                            first, most));
+  if (last < first) {
+    fields.fail(
+        fmt::format("'{}' is not the last number of a range: expected {} or more", last, first));
+  }
+  if (last > most) {  // which solvers take
+    notes.push_back(
+        fmt::format("the range of line {} ends with {}, but the greatest number of {} is {}",
+                    fields.line_place(), last, set.of_nodes ? "a node" : "an element", most));
+    last = most;
+    if (first > most) return;
   }
   if (first == 0) first = step;  // 0 is the last number of the scope before
   add_work(numbers(set).collect(first + offset, last + offset, step, set.members), block);

@@ -31,6 +31,7 @@ struct InpSet {
   std::size_t unique = 0;              ///< how many of the members differ, as far as that is known
   bool is_listed = false;              ///< by *NSET or *ELSET
   bool is_internal = false;
+  bool is_unsorted = false;  ///< its nodes have an order: the lines stay, and so do the nodes
   bool is_kept = true;
   Label number = 0;  ///< of its groups
   std::vector<InpGroupName> groups;
@@ -44,7 +45,8 @@ class InpSets {
  public:
   InpSets(const InpLines& lines, const InpMesh& mesh);
 
-  std::deque<InpSet> all;  ///< in the order of the deck, those of *NODE and *ELEMENT first
+  std::deque<InpSet> all;          ///< in the order of the deck, those of *NODE and *ELEMENT first
+  std::vector<std::string> notes;  ///< of what lines name that is not there, one sentence each
 
   /// The sets that a line of this block means, one for each instance that an assembly has one for.
   /// The name may have the prefix of an instance.

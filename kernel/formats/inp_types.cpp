@@ -16,13 +16,13 @@ struct Family {
 };
 
 // Of two that fit the longer one counts; so it comes first.
-constexpr std::array<Family, 33> kFamilies = {{
-    {"SFM3D", 2}, {"DC1D", 1},  {"DC2D", 2},    {"DC3D", 3}, {"AC2D", 2}, {"AC3D", 3},
-    {"CPEG", 2},  {"COH3D", 3}, {"DCC3D", 3},   {"EC3D", 3}, {"FC3D", 3}, {"GK3D", 3},
-    {"QC3D", 3},  {"STRI", 2},  {"C3D", 3},     {"F3D", 3},  {"CPS", 2},  {"CPE", 2},
-    {"CAX", 2},   {"DCAX", 2},  {"M3D", 2},     {"R3D", 2},  {"T2D", 1},  {"T3D", 1},
-    {"R2D", 1},   {"DS", 2},    {"SC", 3},      {"S", 2},    {"B2", 1},   {"B3", 1},
-    {"PIPE2", 1}, {"PIPE3", 1}, {"FRAME3D", 1},
+constexpr std::array<Family, 34> kFamilies = {{
+    {"SFM3D", 2}, {"DC1D", 1},  {"DC2D", 2},    {"DC3D", 3},  {"AC2D", 2}, {"AC3D", 3},
+    {"CPEG", 2},  {"COH3D", 3}, {"DCC3D", 3},   {"EC3D", 3},  {"FC3D", 3}, {"GK3D", 3},
+    {"QC3D", 3},  {"STRI", 2},  {"C3D", 3},     {"F3D", 3},   {"CPS", 2},  {"CPE", 2},
+    {"CAX", 2},   {"DCAX", 2},  {"M3D", 2},     {"R3D", 2},   {"T2D", 1},  {"T3D", 1},
+    {"R2D", 1},   {"DS", 2},    {"SC", 3},      {"S", 2},     {"B2", 1},   {"B3", 1},
+    {"PIPE2", 1}, {"PIPE3", 1}, {"FRAME3D", 1}, {"EMC3D", 3},
 }};
 
 struct Cell {

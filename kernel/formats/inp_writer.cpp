@@ -67,6 +67,13 @@ class Writer {
       : mesh_(mesh), plan_(mesh), out_(file) {}
 
   void run() {
+    for (const InpPiece& piece : plan_.deck.pieces) {
+      const bool is_of_deck =
+          piece.kind == InpPieceKind::verbatim || piece.kind == InpPieceKind::elements;
+      if (!is_of_deck || piece.text.find('\n') == std::string::npos) continue;
+      out_.use_line_breaks_of(piece.text);
+      break;
+    }
     for (const InpPiece& piece : plan_.deck.pieces) write(piece);
     out_.commit(mesh_.companions());
   }
@@ -75,12 +82,16 @@ class Writer {
   void write(const InpPiece& piece) {
     switch (piece.kind) {
       case InpPieceKind::verbatim:
-        return out_.put(piece.text);
+        return out_.put_as_it_is(piece.text);
       case InpPieceKind::nodes:
         return write_nodes(piece);
       case InpPieceKind::elements:
         return write_elements(piece);
       case InpPieceKind::node_set:
+        if (piece.type == kInpUnsorted) {
+          out_.put_as_it_is(piece.text);
+          return out_.put_as_it_is(piece.more);
+        }
         return write_set(piece, plan_.nodes_of(piece.groups.at(0)));
       case InpPieceKind::element_set:
         return write_set(piece, plan_.elements_of(piece.groups));

@@ -169,6 +169,9 @@ class Reader {
       if (first == "%" && text_.word() == "GETFEM") {
         text_.fail("this is a mesh of GetFEM, not of MEDIT: GetFEM exports it as .vtk or .vtu");
       }
+      if (first == "mesh3d") {
+        text_.fail("this is a mesh of Netgen, not of MEDIT: its name should end in .vol");
+      }
       text_.fail(first.empty() ? "the file is empty: expected MeshVersionFormatted"
                                : fmt::format("{} is not the beginning of a MEDIT file: expected "
                                              "MeshVersionFormatted",

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <string>
@@ -31,6 +32,7 @@ enum NastranPiece : std::size_t {
   nastran_elements,  ///< likewise, those of elements
   nastran_folder,    ///< that the deck lay in, if it names other files; else empty
   nastran_zero,      ///< what elements of label 0 have as property: "0", or a blank field
+  nastran_greatest,  ///< the greatest numbers of points and elements that there were: "27 48"
   nastran_remarks,   ///< the last, if there are any: see deck_remarks(), each with a line break
   nastran_pieces = nastran_remarks
 };
@@ -95,6 +97,9 @@ std::vector<std::filesystem::path> nastran_files(const std::filesystem::path& de
 /// coordinate has all its digits, if need be in free fields. Of one that was, what a run has moved or
 /// made has as many digits as fit. @throws Error
 void write_nastran(const std::filesystem::path& file, const MeshView& mesh);
+
+/// Pieces of a deck that another format cannot hold: none where the deck is as the writer makes it.
+std::size_t nastran_pieces_to_miss(const MeshData& mesh);
 
 /// What a deck cannot hold of a mesh, one sentence each.
 std::vector<std::string> not_in_nastran(const std::filesystem::path& file, const MeshData& mesh);

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <cstring>
@@ -15,6 +14,14 @@ namespace tetmend::formats {
 namespace {
 
 constexpr std::size_t kSmall = 8;
+
+bool is_padding(char c) {
+  return c == ' ' || (c >= '\t' && c <= '\r');
+}
+
+char to_capital(char c) {
+  return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
+}
 
 std::string_view without_comment(std::string_view line) {
   line = line.substr(0, line.find('$'));
@@ -110,13 +117,37 @@ void split(NastranCardText& card, std::string_view whole, std::string_view next_
   }
 }
 
+/// What names the continuation of a line: its tenth field, or the fifth large one.
+std::string_view mark_of(std::string_view whole) {
+  const std::string_view line = without_comment(whole);
+  if (line.find('\t') != std::string_view::npos) return {};
+  std::size_t at = line.find(',');
+  if (at == std::string_view::npos) {
+    constexpr std::size_t kMarks = 72;
+    return line.size() <= kMarks ? std::string_view() : trimmed_field(line.substr(kMarks, kSmall));
+  }
+  const bool is_large = line.substr(0, at).find('*') != std::string_view::npos;
+  for (int left = is_large ? 4 : 8; left > 0; --left) {
+    at = line.find(',', at + 1);
+    if (at == std::string_view::npos) return {};
+  }
+  return trimmed_field(line.substr(at + 1, line.find(',', at + 1) - at - 1));
+}
+
+/// Of the continuation "+A1" that is "A1".
+std::string_view key_of_name(std::string_view line) {
+  const std::string_view name = trimmed_field(first_field(without_comment(line)));
+  return name.empty() ? name : name.substr(1);
+}
+
 }  // namespace
 
 std::string_view trimmed_field(std::string_view text) {
-  constexpr std::string_view kBlanks = " \t\r\n\v\f";
-  const std::size_t first = text.find_first_not_of(kBlanks);
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(kBlanks) - first + 1);
+  std::size_t begin = 0;
+  std::size_t end = text.size();
+  while (begin != end && is_padding(text[begin])) ++begin;
+  while (begin != end && is_padding(text[end - 1])) --end;
+  return text.substr(begin, end - begin);
 }
 
 std::string_view NastranLines::line() {
@@ -129,7 +160,7 @@ std::string_view NastranLines::line() {
 
 char NastranLines::initial() const {
   for (const char* c = next_; c != end_ && c != next_ + kSmall && *c != '\n'; ++c) {
-    if (*c != ' ') return static_cast<char>(std::toupper(static_cast<unsigned char>(*c)));
+    if (*c != ' ') return to_capital(*c);
   }
   return '\0';
 }
@@ -138,9 +169,60 @@ bool NastranLines::begins_with(std::string_view word) const {
   const char* at = next_;
   while (at != end_ && at != next_ + kSmall && *at == ' ') ++at;
   if (static_cast<std::size_t>(end_ - at) < word.size()) return false;
-  return std::equal(word.begin(), word.end(), at, [](char wanted, char c) {
-    return std::toupper(static_cast<unsigned char>(c)) == wanted;
-  });
+  return std::equal(word.begin(), word.end(), at,
+                    [](char wanted, char c) { return to_capital(c) == wanted; });
+}
+
+std::string_view NastranStrays::behind(std::string_view line) const {
+  const auto found = behind_.find(line.data());
+  return found == behind_.end() ? std::string_view() : found->second;
+}
+
+bool NastranStrays::follows(std::string_view line, std::string_view before) {
+  const std::string_view key = key_of_name(line);
+  const std::string_view mark = mark_of(before);
+  return key.empty() || key == mark || (!mark.empty() && key == mark.substr(1));
+}
+
+void NastranStrays::add(const char* begin, const char* end) {
+  std::unordered_map<std::string_view, const char*> owners;  // by what their marks mean
+  std::vector<std::string_view> apart;
+  const auto own = [&](std::string_view line) {
+    const std::string_view mark = mark_of(line);
+    if (mark.empty()) return;
+    for (const std::string_view key : {mark, mark.substr(1)}) owners.try_emplace(key, line.data());
+  };
+  NastranLines lines(begin, end);
+  std::string_view before;
+  bool is_apart = false;
+  while (!lines.at_end()) {
+    const char first = lines.initial();
+    const std::string_view line = lines.line();
+    if (is_blank_text(without_comment(line))) continue;
+    const bool is_named = (first == '+' || first == '*') && !key_of_name(line).empty();
+    // What follows one of these by its name is one, too.
+    is_apart = is_named && (is_apart || !follows(line, before));
+    if (is_apart) apart.push_back(line);
+    if (is_apart || !is_named) own(before);
+    before = line;
+  }
+  own(before);
+  std::unordered_map<const char*, std::string_view> behind;
+  std::unordered_set<const char*> in_chain;  // their owner may be one of them
+  for (const std::string_view line : apart) {
+    const auto owner = owners.find(key_of_name(line));
+    if (owner != owners.end()) behind.try_emplace(owner->second, line);
+    in_chain.insert(line.data());
+  }
+  // From each card on: those that only continue each other are left as they stand.
+  for (const auto& each : behind) {
+    const char* card = each.first;
+    if (in_chain.contains(card)) continue;
+    for (auto at = behind.find(card); at != behind.end(); at = behind.find(at->second.data())) {
+      behind_.insert(*at);
+      places_.insert(at->second.data());
+    }
+  }
 }
 
 void NastranLines::skip_comments() {
@@ -167,13 +249,23 @@ void NastranLines::read(NastranCardText& card) {
   const char* begin = next_;
   card.fields.clear();
   card.comments.clear();
+  card.strays.clear();
   std::string_view present = line();
   card.name = nastran_name(present);
   card.text = present;
-  if (card.name.empty() && is_blank_text(without_comment(present))) return;
+  if (is_stray(begin)) card.name.clear();
+  if (card.name.empty() && (is_stray(begin) || is_blank_text(without_comment(present)))) return;
   for (;;) {
+    const std::string_view stray =
+        strays_ == nullptr ? std::string_view() : strays_->behind(present);
+    if (!stray.empty()) {
+      split(card, present, first_field(without_comment(stray)));
+      card.strays.push_back(present = stray);
+      continue;
+    }
     const char first = at_end() ? '\0' : initial();
-    if (at_end() || (first >= 'A' && first <= 'Z')) {  // most often: a card of one line
+    const bool ends = at_end() || is_stray(next_) || !card.strays.empty();
+    if (ends || (first >= 'A' && first <= 'Z')) {  // most often: a card of one line
       split(card, present, {});
       break;
     }
@@ -202,7 +294,7 @@ std::string nastran_name(std::string_view line) {
   for (const char c : rest) {
     const bool ends = c == ' ' || c == ',' || c == '*' || c == '$' || (c >= '\t' && c <= '\r');
     if (ends) break;
-    name += static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+    name += to_capital(c);
   }
   return name;
 }

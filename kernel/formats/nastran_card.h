@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <unordered_map>
+#include <unordered_set>
 #include <vector>
 
 #include "kernel/formats/input_file.h"
@@ -18,14 +20,36 @@ struct NastranCardText {
   std::string_view text;                   ///< all lines, with the last line break
   std::vector<std::string_view> fields;    ///< behind the name, trimmed
   std::vector<std::string_view> comments;  ///< lines of these that stand within the card
+  std::vector<std::string_view> strays;    ///< continuations that stand elsewhere
 
   std::string_view field(std::size_t i) const { return i < fields.size() ? fields[i] : ""; }
+};
+
+/// Continuations that do not follow the line that they continue: the marks at the end of the one and
+/// the beginning of the other tell which belong together.
+class NastranStrays {
+ public:
+  /// Those of some lines.
+  void add(const char* begin, const char* end);
+  bool is_empty() const { return behind_.empty(); }
+  /// True if the line here is the continuation of another than the one before it.
+  bool is_stray(const char* line) const { return places_.contains(line); }
+  /// The line that continues this one; empty: none but the next.
+  std::string_view behind(std::string_view line) const;
+
+  /// False if `line`, a continuation with a name, is none of the line `before`.
+  static bool follows(std::string_view line, std::string_view before);
+
+ private:
+  std::unordered_map<const char*, std::string_view> behind_;
+  std::unordered_set<const char*> places_;
 };
 
 /// Goes through the bulk card by card.
 class NastranLines {
  public:
-  NastranLines(const char* begin, const char* end) : next_(begin), end_(end) {}
+  NastranLines(const char* begin, const char* end, const NastranStrays* strays = nullptr)
+      : next_(begin), end_(end), strays_(strays) {}
 
   bool at_end() const { return next_ == end_; }
   const char* position() const { return next_; }
@@ -44,9 +68,11 @@ class NastranLines {
   /// Goes to the next line that says something.
   void skip_comments();
   bool continues() const;
+  bool is_stray(const char* line) const { return strays_ != nullptr && strays_->is_stray(line); }
 
   const char* next_;
   const char* end_;
+  const NastranStrays* strays_ = nullptr;  // null: there are none
 };
 
 /// The name of the card that a line begins, in capitals; empty for a comment, a blank line and a

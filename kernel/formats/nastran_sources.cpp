@@ -28,8 +28,11 @@ std::string name_of(std::string_view statement) {
   rest.remove_prefix(std::min(rest.find_first_not_of(" \t=,"), rest.size()));
   if (!rest.empty() && (rest[0] == '\'' || rest[0] == '"')) {
     std::string name;
+    bool begins_line = false;  // where blanks are no part of the name
     for (const char c : rest.substr(0, rest.find(rest[0], 1) + 1)) {
-      if (c != '\n' && c != '\r') name += c;
+      const bool is_break = c == '\n' || c == '\r';
+      begins_line = is_break || (begins_line && (c == ' ' || c == '\t'));
+      if (!begins_line) name += c;
     }
     return name;
   }
@@ -64,27 +67,33 @@ const InputFile& NastranSources::file_of(const char* place) const {
   return deck();
 }
 
-/// From behind BEGIN BULK, or the beginning, to ENDDATA, or the end.
+/// From behind BEGIN BULK, or the beginning, to ENDDATA or another BEGIN, or the end.
 NastranSources::Bulk NastranSources::find_bulk(const InputFile& file) {
   constexpr std::string_view kMark = "\xEF\xBB\xBF";
   Bulk bulk{file.begin(), file.end(), false};
   if (std::string_view(file.begin(), file.size()).starts_with(kMark)) bulk.begin += kMark.size();
   NastranLines lines(bulk.begin, bulk.end);
   bool begun = false;
+  std::string_view before;
   while (!lines.at_end()) {
     const char* begin = lines.position();
     const char first = lines.initial();
     const std::string_view line = lines.line();
+    const bool is_named = (first == '+' || first == '*') && line.size() > 1 && line[1] > ' ';
+    if (is_named && !bulk.may_stray) bulk.may_stray = !NastranStrays::follows(line, before);
+    if (first != '$') before = line;
     if (first == 'I') bulk.may_include = true;
     if (first != 'B' && first != 'E') continue;
     const std::string name = nastran_name(line);
-    if (!begun && name == "BEGIN") {
-      bulk.begin = lines.position();
-      begun = true;
-    }
-    if (name == "ENDDATA") {
+    const bool is_begin = name == "BEGIN";
+    // Behind another BEGIN, of a superelement, numbers mean other points.
+    if (name == "ENDDATA" || (is_begin && begun)) {
       bulk.end = begin;
       break;
+    }
+    if (is_begin) {
+      bulk.begin = lines.position();
+      begun = true;
     }
   }
   return bulk;
@@ -115,6 +124,10 @@ void NastranSources::read(const Bulk& bulk, const std::filesystem::path& path,
                           std::size_t inclusion) {
   const std::filesystem::path canonical = place_of_included(path);
   open_.insert(canonical);
+  if (bulk.may_stray) {
+    strays_.add(bulk.begin, bulk.end);
+    has_strays_ = !strays_.is_empty();
+  }
   NastranLines lines(bulk.may_include ? bulk.begin : bulk.end, bulk.end);
   const char* begin = bulk.begin;
   NastranCardText card;

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "kernel/formats/input_file.h"
+#include "kernel/formats/nastran_card.h"
 
 namespace tetmend::formats {
 
@@ -40,6 +41,13 @@ class NastranSources {
 
   /// That were opened, the deck first.
   const std::vector<std::filesystem::path>& files() const { return opened_; }
+  NastranLines lines(const NastranStretch& stretch) const {
+    return lines_from(stretch.begin, stretch.end);
+  }
+  NastranLines lines_from(const char* begin, const char* end) const {
+    return {begin, end, has_strays_ ? &strays_ : nullptr};
+  }
+  bool is_stray(const char* line) const { return has_strays_ && strays_.is_stray(line); }
   const InputFile& deck() const { return *files_.begin()->second; }
   /// The file that a place is in.
   const InputFile& file_of(const char* place) const;
@@ -55,6 +63,7 @@ class NastranSources {
     const char* begin;
     const char* end;
     bool may_include = false;
+    bool may_stray = false;  ///< continuations might not follow their lines
   };
 
   static Bulk find_bulk(const InputFile& file);
@@ -74,6 +83,8 @@ class NastranSources {
   std::filesystem::path folder_;
   std::size_t size_of_files_ = 0;
   std::size_t included_ = 0;  // bytes, as often as they are
+  NastranStrays strays_;
+  bool has_strays_ = false;
   const char* bulk_begin_ = nullptr;
   const char* bulk_end_ = nullptr;
 };

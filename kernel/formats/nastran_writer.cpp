@@ -114,6 +114,16 @@ class Writer {
       points_of_deck_ = WholeCards((*deck_)[nastran_points]);
       elements_of_deck_ = WholeCards((*deck_)[nastran_elements]);
       largest_ = largest_of_cards((*deck_)[nastran_cards]);
+      // New ones do not get numbers of those that are gone: other files may name these.
+      const std::string& greatest = (*deck_)[nastran_greatest];
+      const std::size_t blank = greatest.find(' ');
+      std::int64_t number = 0;
+      if (nastran_integer(greatest.substr(0, blank), number)) {
+        largest_.point = std::max(largest_.point, number);
+      }
+      if (blank != std::string::npos && nastran_integer(greatest.substr(blank + 1), number)) {
+        largest_.element = std::max(largest_.element, number);
+      }
     }
   }
 
@@ -122,15 +132,29 @@ class Writer {
     number_elements();
     number_properties();
     find_systems();
-    out_.put(deck_ == nullptr ? "BEGIN BULK\n" : (*deck_)[nastran_front]);
+    use_line_breaks();
+    put_of_deck(nastran_front, "BEGIN BULK\n");
     write_points();
     for (std::size_t k = 0; k < lists_.all().size(); ++k) write_elements(k);
-    if (deck_ != nullptr) out_.put((*deck_)[nastran_cards]);
-    out_.put(deck_ == nullptr ? "ENDDATA\n" : (*deck_)[nastran_end]);
+    put_of_deck(nastran_cards, "");
+    put_of_deck(nastran_end, "ENDDATA\n");
     out_.commit(mesh_.companions());
   }
 
  private:
+  void put_of_deck(NastranPiece piece, std::string_view otherwise) {
+    out_.put_as_it_is(deck_ == nullptr ? otherwise : (*deck_)[piece]);
+  }
+
+  /// As the deck has them, by what is sure to be its own.
+  void use_line_breaks() {
+    if (deck_ == nullptr) return;
+    for (const NastranPiece piece : {nastran_end, nastran_cards, nastran_front}) {
+      if ((*deck_)[piece].find('\n') == std::string::npos) continue;
+      return out_.use_line_breaks_of((*deck_)[piece]);
+    }
+  }
+
   /// Those of Nastran have at most eight digits; others are read as well.
   NewNumbers new_numbers(std::int64_t most, const std::vector<std::int64_t>& known) const {
     constexpr std::array<std::int64_t, 3> kLimits = {99'999'999, INT32_MAX, INT64_MAX};
@@ -422,6 +446,16 @@ class Writer {
 
 void write_nastran(const std::filesystem::path& file, const MeshView& mesh) {
   Writer(file, mesh).write();
+}
+
+std::size_t nastran_pieces_to_miss(const MeshData& mesh) {
+  std::size_t pieces = 0;
+  for (std::size_t i = 0; i < mesh.deck.size() && i < nastran_folder; ++i) {
+    const bool is_own = (i == nastran_front && mesh.deck[i] == "BEGIN BULK\n") ||
+                        (i == nastran_end && mesh.deck[i] == "ENDDATA\n");
+    pieces += is_own || mesh.deck[i].empty() ? 0 : 1;
+  }
+  return pieces;
 }
 
 std::vector<std::string> not_in_nastran(const std::filesystem::path& file, const MeshData& mesh) {

@@ -141,7 +141,30 @@ void OutputFile::flush() {
   buffer_.clear();
 }
 
+void OutputFile::use_line_breaks_of(std::string_view text) {
+  flush();
+  const std::size_t end = text.find('\n');
+  is_of_windows_ = end != std::string_view::npos && end > 0 && text[end - 1] == '\r';
+}
+
+void OutputFile::put_as_it_is(std::string_view text) {
+  if (!is_of_windows_) return put(text);
+  flush();
+  write_packed(text);
+}
+
 void OutputFile::write_out(std::string_view bytes) {
+  if (!is_of_windows_) return write_packed(bytes);
+  std::string lines;
+  lines.reserve(bytes.size() + bytes.size() / 16);
+  for (const char c : bytes) {
+    if (c == '\n' && !lines.ends_with('\r')) lines += '\r';
+    lines += c;
+  }
+  write_packed(lines);
+}
+
+void OutputFile::write_packed(std::string_view bytes) {
   if (gzip_) return gzip_->put(bytes);
   write_raw(bytes);
 }

@@ -81,6 +81,10 @@ class OutputFile {
   template <class T>
   requires std::is_arithmetic_v<T>
   void put_bytes(T value) { buffer_.put_bytes(value), flush_if_full(); }
+  /// What is put from now on gets the line breaks of this text: those of Windows if its first is one.
+  void use_line_breaks_of(std::string_view text);
+  /// Puts a text that keeps its line breaks.
+  void put_as_it_is(std::string_view text);
   /// Calls fill(block, buffer) for each block from 0 on, several at once as threads allow, and
   /// writes what they put into their buffers in the order of the blocks.
   void put_blocks(std::size_t blocks,
@@ -107,6 +111,7 @@ class OutputFile {
   }
   void flush();
   void write_out(std::string_view bytes);
+  void write_packed(std::string_view bytes);
   void write_raw(std::string_view bytes);
   [[noreturn]] static void fail_stream(int error);
 
@@ -116,6 +121,7 @@ class OutputFile {
   std::unique_ptr<formats::GzipWriter> gzip_;  // null: not packed
   platform::Descriptor memory_;                // what is to go to standard output
   bool is_finished_ = false;
+  bool is_of_windows_ = false;  // lines end so
 };
 
 }  // namespace tetmend

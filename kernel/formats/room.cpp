@@ -14,6 +14,7 @@
 #include "kernel/formats/med.h"
 #include "kernel/formats/medit_marks.h"
 #include "kernel/formats/medit_vectors.h"
+#include "kernel/formats/nastran.h"
 #include "kernel/formats/vtk_roles.h"
 #include "kernel/formats/xdmf.h"
 #include "kernel/parts.h"
@@ -188,11 +189,12 @@ std::vector<std::string> lost_in(const Room& room, const std::string& extension,
   notes.lost(room.required_vertices || has_deck, mesh.required_vertices.size(),
              "required vertices are");
   notes.lost(has_deck || has_only_roles(mesh),
-             mesh.variant == kMed      ? med_remarks_to_miss(mesh)
-             : mesh.variant == kExodus ? exodus_pieces_to_miss(mesh)
-             : mesh.variant == kCgns   ? cgns_pieces_to_miss(mesh)
-             : mesh.variant == kXdmf   ? 0
-                                       : mesh.deck.size(),
+             mesh.variant == kMed       ? med_remarks_to_miss(mesh)
+             : mesh.variant == kExodus  ? exodus_pieces_to_miss(mesh)
+             : mesh.variant == kCgns    ? cgns_pieces_to_miss(mesh)
+             : mesh.variant == kNastran ? nastran_pieces_to_miss(mesh)
+             : mesh.variant == kXdmf    ? 0
+                                        : mesh.deck.size(),
              "pieces of a deck, all that is no mesh, are");
   return std::move(notes.sentences);
 }

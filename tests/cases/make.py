@@ -235,6 +235,45 @@ def nastran_flavours():
     write("a-node-left-out.bdf", lines + ["PSOLID,1,1", "MAT1,1,210000.,,.3", "ENDDATA"])
 
 
+def nastran_continued():
+    """Continuations far from their cards, those of superelements, zeros, a name over two lines."""
+    points, tets = box()
+    quadratic, nodes = second_order(points, tets)
+    grid = [f"GRID,{i},,{','.join(f'{x:.6f}' for x in p)}" for i, p in enumerate(quadratic, 1)]
+    fixed = lambda words: "".join(f"{word:>8}" for word in words)
+    cards, rest = [], []
+    for i, tet in enumerate(nodes, 1):
+        words = [i, 1] + [v + 1 for v in tet]
+        mark = f"+E{i}" if i % 2 else f"E{i}"
+        cards.append(f"CTETRA  {fixed(words[:8])}{mark:<8}")
+        rest.append(f"{'+' + mark.lstrip('+'):<8}{fixed(words[8:])}")
+    write("continued-elsewhere.bdf", ["BEGIN BULK"] + grid + cards + ["PSOLID,1,1"] + rest[::-1] + ["ENDDATA"])
+    plain = [f"GRID,{i},,{','.join(f'{x:.6f}' for x in p)}" for i, p in enumerate(points, 1)]
+    zeros = [f"CTETRA,{i},1," + ",".join(str(v + 1) for v in tet) + ",0,0,+" + "\n+,0,0,0,0" for i, tet in enumerate(tets, 1)]
+    write("superelement.bdf", ["SOL 101", "CEND", "BEGIN BULK"] + plain + zeros +
+          ["PSOLID,1,1", "BEGIN SUPER=1", "GRID,14,,0.,0.,9.", "CTETRA,1,1,1,2,3,14", "ENDDATA"])
+    write("name-over-two-lines.bdf", ["BEGIN BULK", "INCLUDE 'included-", "         mesh-bulk.bdf'", "ENDDATA"])
+
+
+def decks_of_windows():
+    points, tets = box()
+    middle = ["*NSET, NSET=order, UNSORTED", "14, 1", "*ELSET,", "** of all", "ELSET=all,", "  GENERATE", "1, 100"]
+    inp("ordered-and-beyond.inp", points, tets, ["*STEP", "*STATIC", "*END STEP"], before=middle)
+    with open("ordered-and-beyond.inp", encoding="ascii") as file:
+        text = file.read().replace("ELSET=body\n1,", "ELSET=body,\n1,")
+    with open("ordered-and-beyond.inp", "w", encoding="ascii", newline="") as file:
+        file.write(text.replace("\n", "\r\n"))
+
+
+def comments_first():
+    points, tets = box()
+    msh2("comments-first.msh", points, [(4, 1, t) for t in tets])
+    with open("comments-first.msh", encoding="ascii") as file:
+        text = file.read()
+    with open("comments-first.msh", "w", encoding="ascii") as file:
+        file.write("$Comments\n$MeshFormat of a box\n$EndComments\n" + text)
+
+
 def parts_of_abaqus():
     points, tets = box()
     mesh = ["*Node"] + [f"{i}, {', '.join(f'{x:.10g}' for x in p)}" for i, p in enumerate(points, 1)]
@@ -331,6 +370,7 @@ def identifiers():
     faces = [(0, 1, 5), (0, 5, 4)]
     vtk_of_arrays("ids-of-tets-and-faces.vtk", points, tets + faces,
                   [("", "element_id", "int", [*range(101, 101 + t), 900, 901])])
+    vtu("ids-in-single-precision.vtu", points, tets, [("Element ID", "Float32", [float(i) for i in range(7, 7 + t)])])
     vtu("ids-near-the-end.vtu", points, tets, [("PedigreeElementId", "Int32", range(2147483647 - t + 1, 2147483648))])
 
 
@@ -345,6 +385,7 @@ def regions():
                                                              ("", "vtkGhostType", "int", [0] * 48)])
     vtk_of_arrays("markers-as-doubles.vtk", points, tets, [("", "cell_markers", "double", [float(v) for v in x])])
     vtk_of_arrays("two-unknown-arrays.vtk", points, tets, [("", "zebra", "int", x), ("", "crossing", "int", y)])
+    vtu("name-with-a-blank.vtu", points, tets, [("Region ID", "Int32", x), ("colour", "Int32", y)])
     vtu("body-and-object.vtu", points, tets, [("ObjectId", "Int32", y), ("body_id", "Int64", x)])
     vtu("one-unknown-double.vtu", points, tets, [("zebra", "Float64", [float(v) for v in x]),
                                                  ("vtkGhostType", "UInt8", [0] * 48)])
@@ -359,4 +400,7 @@ if __name__ == "__main__":
     degenerate()
     touching()
     nastran_flavours()
+    nastran_continued()
+    decks_of_windows()
+    comments_first()
     parts_of_abaqus()

@@ -12,7 +12,7 @@
 using namespace tetmend;
 using namespace tetmend::face;
 
-TEST_CASE("whole numbers of which no two are alike are identifiers, doubles by their name alone") {
+TEST_CASE("whole numbers of which no two are alike are identifiers, reals by their name alone") {
   const std::vector<std::int32_t> ids = {7, 3, 5, -1};
   CHECK(are_identifiers({"anything", 1, ids}));
   CHECK(are_identifiers({"anything", 1, std::vector<std::int64_t>{1LL << 40, 2, 3}}));
@@ -23,7 +23,9 @@ TEST_CASE("whole numbers of which no two are alike are identifiers, doubles by t
     CAPTURE(name);
     CHECK(are_identifiers({name, 1, std::vector<double>{1, 2, 4}}));
     CHECK(!are_identifiers({name, 1, std::vector<double>{1, 2.5, 4}}));
-    CHECK(!are_identifiers({name, 1, std::vector<float>{1, 2, 4}}));
+    CHECK(are_identifiers({name, 1, std::vector<float>{1, 2, 4}}));
+    CHECK(!are_identifiers({name, 1, std::vector<float>{1, 2.5F, 4}}));
+    CHECK(!are_identifiers({name, 1, std::vector<float>{1, 2, 33554432}}));  // 2^25: no 2^25 + 1
   }
   for (const std::string name : {"fluid", "solid", "temperature", ""}) {
     CAPTURE(name);
@@ -41,6 +43,13 @@ TEST_CASE("new points and elements get numbers above the largest of all that sha
   const std::string note = identifier_note(tets, made, "tets", same);
   CHECK(note.find("1 of 3 numbers are gone, 2 are new, from 100 on") != std::string::npos);
   CHECK(identifier_note(tets, tets, "tets", std::vector<std::uint32_t>{0, 1, 2}).empty());
+}
+
+TEST_CASE("numbers in single precision stay below those that it does not tell apart") {
+  const DataArray ids{"id", 1, std::vector<float>{1, 16777215, 3}};
+  NewIdentifiers numbers({&ids});
+  CHECK(numbers.carried(ids, std::vector<std::uint32_t>{0, 1, 2, kGone, kGone}) ==
+        DataArray{"id", 1, std::vector<float>{1, 16777215, 3, 16777216, 2}});
 }
 
 TEST_CASE("where the type holds no greater number, new ones lie between the old") {

@@ -260,6 +260,10 @@ TEST_CASE("tets that are protected keep their nodes, though they are turned over
   CHECK(MeshAccess::data(mesh).points.size() == before.points.size());
   CHECK(statistics_of(MeshAccess::data(mesh)).turned_over == statistics_of(before).turned_over);
   CHECK(result.straightened_edges == 0);
+  const bool is_told = std::any_of(result.notes.begin(), result.notes.end(), [](const auto& note) {
+    return note.find("of tets or points that are kept") != std::string::npos;
+  });
+  CHECK(is_told);
 }
 
 TEST_CASE("a straight mesh of second order is improved like one of first order") {

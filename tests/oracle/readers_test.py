@@ -8,6 +8,7 @@ variants, by each reader that is here.
 import contextlib
 import importlib.util
 import io
+import os
 import re
 import shutil
 import subprocess
@@ -34,6 +35,11 @@ KNOWN_GAPS = {
     ("meshio", "ele", "second"): "it knows no tets of second order there",
     ("meshio", "xdmf", ""): "it reads one grid alone, and labels have their own",
     ("meshio", "vtk", "roles"): "it does not know GLOBAL_IDS",
+    ("FreeFem", "mesh", "second"): "its meshes are of first order",
+    ("FreeFem", "meshb", "second"): "its meshes are of first order",
+    ("FreeFem", "msh", "second"): "its meshes are of first order",
+    ("FreeFem", "vtk", "second"): "its meshes are of first order",
+    ("DOLFIN", "xdmf", "second"): "it reads no tets of second order",
 }
 
 
@@ -193,6 +199,54 @@ def read_mfem(file: Path):
     return points, tets, [mesh.GetAttribute(i) for i in range(mesh.GetNE())]
 
 
+def read_getfem(file: Path):
+    import getfem
+    mesh = getfem.Mesh("import", "gmsh", str(file))
+    points, tets = mesh.pts().T, []
+    numbers, starts = mesh.pid_from_cvid()
+    for begin, end in zip(starts[:-1], starts[1:]):
+        nodes = list(numbers[begin:end])
+        if len(nodes) == 10:  # row by row, from the first corner to the last
+            nodes = [nodes[k] for k in (0, 2, 5, 9)]
+        if len(nodes) == 4:
+            tets.append(nodes)
+    return points, tets, None
+
+
+FREEFEM = """load "msh3"
+load "gmsh"
+load "iovtk"
+mesh3 m = %s("%s");
+cout.precision(17);
+for (int i = 0; i < m.nv; ++i) cout << "POINT " << m(i).x << " " << m(i).y << " " << m(i).z << endl;
+for (int i = 0; i < m.nt; ++i)
+  cout << "TET " << m[i][0] << " " << m[i][1] << " " << m[i][2] << " " << m[i][3] << " " << m[i].region << endl;
+"""
+
+
+def read_freefem(file: Path):
+    reader = {".mesh": "readmesh3", ".meshb": "readmesh3", ".msh": "gmshload3", ".vtk": "vtkload3"}[file.suffix]
+    script = file.with_suffix(".edp")
+    script.write_text(FREEFEM % (reader, file))
+    # Debian's own settings name another folder.
+    environment = {**os.environ, "FF_LOADPATH": "/usr/lib/freefem++/"}
+    done = subprocess.run(["FreeFem++", "-nw", "-v", "0", script], capture_output=True, text=True, env=environment)
+    rows = [line.split() for line in done.stdout.splitlines()]
+    points = [[float(word) for word in row[1:]] for row in rows if row[:1] == ["POINT"]]
+    tets = [[int(word) for word in row[1:]] for row in rows if row[:1] == ["TET"]]
+    if not tets:
+        raise RuntimeError(done.stdout[-200:])
+    return points, [tet[:4] for tet in tets], [tet[4] for tet in tets] if file.suffix != ".vtk" else None
+
+
+def read_dolfin(file: Path):
+    from dolfin import Mesh, XDMFFile
+    mesh = Mesh()
+    with XDMFFile(str(file)) as xdmf:
+        xdmf.read(mesh)
+    return mesh.coordinates(), mesh.cells(), None
+
+
 def read_ccx(file: Path):
     """CalculiX checks the deck and prints what it has read."""
     text = file.read_text()
@@ -213,14 +267,19 @@ READERS = {
     "Gmsh": (lambda: has("gmsh"), read_gmsh, ["msh", "mesh", "bdf", "nas", "vtk", "unv"]),
     "VTK": (lambda: has("vtkmodules"), read_vtk, ["vtk", "vtu"]),
     "VTK's blocks": (lambda: has("vtkmodules"), read_blocks, ["e", "cgns"]),
+    "DOLFIN": (lambda: has("dolfin"), read_dolfin, ["xdmf"]),
+    "GetFEM": (lambda: has("getfem"), read_getfem, ["msh 2.2 ASCII", "msh 4.1 ASCII"]),
+    "FreeFem": (lambda: shutil.which("FreeFem++") and Path("/usr/lib/freefem++/msh3.so").exists(), read_freefem,
+                ["mesh", "meshb", "msh 2.2 ASCII", "vtk"]),
     "DOLFINx": (lambda: has("dolfinx"), read_dolfinx, ["xdmf"]),
     "TetGen": (lambda: shutil.which("tetgen"), read_tetgen, ["ele"]),
     "Netgen": (lambda: has("netgen"), read_netgen, ["vol"]),
     "MFEM": (lambda: has("mfem"), read_mfem, ["mfem"]),
     "CalculiX": (lambda: shutil.which("ccx"), read_ccx, ["inp"]),
 }
-# No reader of these is in Debian, or none that a script can call.
-NOT_PACKAGED = ["deal.II", "LS-DYNA", "FEBio", "libMesh", "Elmer", "Code_Aster", "SU2", "pyNastran"]
+# No reader of these is in Debian 12.
+NOT_PACKAGED = ["LS-DYNA", "FEBio", "libMesh", "Elmer", "Code_Aster", "SU2", "pyNastran",
+                "deal.II (which is, with 137 MB of packages and a program to compile)"]
 
 
 # ---- what is read
@@ -326,7 +385,7 @@ def main() -> int:
                     subprocess.run(command, check=True, capture_output=True)
                     for reader in sorted(here):
                         _, read, extensions = READERS[reader]
-                        if extension not in extensions:
+                        if not {extension, f"{extension} {variant}"} & set(extensions):
                             continue
                         what = f"{mesh.name} as .{extension} {variant} by {reader}"
                         tried += 1

@@ -110,7 +110,8 @@ TEST_CASE("what is no mesh in a deck of Nastran stays word for word, and its poi
       "GRID,50,,1,0,0,2\n",
       "CTRIA3  15      4       10      20      40      45.\n",
       "",
-      ""};
+      "",
+      "7000 17"};
   CHECK(deck_of(mesh) == deck);
   // 60 to 80 for SPC1, 90 for FORCE. The coordinates of 50 are no constraint.
   CHECK(mesh.required_vertices == std::vector<std::uint32_t>{5, 6, 7, 8});
@@ -346,6 +347,9 @@ TEST_CASE("a card of Nastran says the same in every form that people write it in
       "CTETRA,1,2,1,2,3,4,5,6,+\n+,7,8,9,10\n",
       "CTETRA         1       2       1       2       3       4       5       6\n"
       "               7       8       9      10\n",
+      // as meshio names it
+      "CTETRA_        1       2       1       2       3       4       5       6+11     \n"
+      "+11            7       8       9      10\n",
       // comments and blank lines within
       "CTETRA         1       2       1       2       3       4       5       6\n"
       "$ the others\n\n   \n$\n               7       8       9      10\n",
@@ -382,6 +386,127 @@ TEST_CASE("a card of Nastran says the same in every form that people write it in
     CHECK(mesh.mid_nodes == plain.mid_nodes);
     CHECK(mesh.tet_numbers == std::vector<std::int64_t>{1});
   }
+}
+
+TEST_CASE("continuations of Nastran are found by their marks, wherever they stand") {
+  const TempFolder folder;
+  const MeshData plain =
+      read(folder, bulk("CTETRA,1,2,1,2,3,4,5,6,+\n+,7,8,9,10\nFORCE,1,1,0,1.,1.,0.,0.\n"));
+  const std::string first =
+      "CTETRA         1       2       1       2       3       4       5       6+A1     \n";
+  const std::string rest = "+A1            7       8       9      10\n";
+  const std::string force = "FORCE,1,1,0,1.,1.,0.,0.\n";
+  const std::string load =
+      "SPC1           1     123       1       2       3       4       5       6S1\n";
+  for (const std::string& cards :
+       {first + force + rest, rest + force + first, force + rest + "$ c\n" + first,
+        first + load + rest + "+1             7\n" + force}) {
+    CAPTURE(cards);
+    const MeshData mesh = read(folder, bulk(cards));
+    CHECK(mesh.tets == plain.tets);
+    CHECK(mesh.mid_nodes == plain.mid_nodes);
+    CHECK(mesh.other_elements.empty());
+    CHECK(mesh.notes.empty());
+  }
+  // Others that go with their cards stay word for word.
+  const MeshData mesh = read(folder, bulk(load + force + first + rest + "+1             7\n"));
+  CHECK(mesh.deck[formats::nastran_cards] == load + "+1             7\n" + force);
+}
+
+TEST_CASE("lines of Nastran whose marks go round in circles are told or stay") {
+  const TempFolder folder;
+  const std::string circle =
+      "+A             7       8       9      10       1       1       1       1+B\n"
+      "+C             1\n"
+      "+B             7       8       9      10       1       1       1       1+A\n";
+  const std::string twice =
+      "SPC1           1     123       1       2       3       4       5       6+A\n"
+      "SPC1           2     123       1       2       3       4       5       6+A\n"
+      "PSOLID,2,1\n";
+  for (const std::string& cards : {circle, twice + circle, circle + twice, circle + circle}) {
+    CAPTURE(cards);
+    write_text(folder / "a.bdf", bulk(cards));
+    const std::string said = error_of_reading(folder / "a.bdf");
+    if (said != "no error") {
+      CHECK(said.find("a continuation without a card") != std::string::npos);
+      continue;
+    }
+    write_mesh(folder / "b.bdf", read_mesh(folder / "a.bdf"));
+    const std::string written = test::read_text(folder / "b.bdf");
+    for (const std::string_view line : {"+A      ", "+B      ", "+C      "}) {
+      CHECK(written.find(line) != std::string::npos);
+    }
+  }
+}
+
+TEST_CASE("a mid-side node of Nastran that is 0 is left out") {
+  const TempFolder folder;
+  const MeshData none = read(folder, bulk("CTETRA,1,2,1,2,3,4,0,0,+\n+,0,0,0,0\n"));
+  CHECK(none.tets == std::vector<MeshData::Tet>{{{0, 1, 2, 3}, 2}});
+  CHECK(none.mid_nodes.empty());
+  CHECK(none.notes.empty());
+  const MeshData some = read(folder, bulk("CTETRA,1,2,1,2,3,4,5,0,+\n+,7,8,9,10\n"));
+  CHECK(some.tets.empty());
+  CHECK(some.notes.size() == 1);
+}
+
+TEST_CASE("what follows another BEGIN of a deck of Nastran is not read, and stays") {
+  const TempFolder folder;
+  const std::string rest = "BEGIN SUPER=1\nGRID,1,,9.,9.,9.\nCTETRA,1,1,1,2,3,4\nENDDATA\n";
+  const MeshData mesh =
+      read(folder, "BEGIN BULK\n" + std::string(kPoints) + "CTETRA,1,2,1,2,3,4\n" + rest);
+  CHECK(mesh.tets.size() == 1);
+  CHECK(mesh.points[0] == Point(0, 0, 0));
+  CHECK(mesh.notes ==
+        std::vector<std::string>{
+            "the bulk data of superelements stay as they are: what they say is not read"});
+  write_mesh(folder / "b.bdf", mesh);
+  CHECK(test::read_text(folder / "b.bdf").ends_with(rest));
+}
+
+TEST_CASE("points of Nastran that repeat the card before are an error, other cards stay") {
+  const TempFolder folder;
+  write_text(folder / "a.bdf", "BEGIN BULK\nGRID,1,,0.,0.,0.\n=,*1,=,*1.,==\n=2\nENDDATA\n");
+  CHECK(
+      error_of_reading(folder / "a.bdf")
+          .starts_with("a.bdf:3: points and elements that repeat the card before cannot be read"));
+  CHECK(read(folder, bulk("SPC,1,1,123\n=,=,2,==\nCTETRA,1,2,1,2,3,4\n"))
+            .deck[formats::nastran_cards] == "SPC,1,1,123\n=,=,2,==\n");
+}
+
+TEST_CASE("a deck of Nastran from Windows keeps its line breaks, and gets no others") {
+  const TempFolder folder;
+  std::string windows;
+  for (const char c : "SOL 101\nCEND\n" + bulk("CTETRA,1,2,1,2,3,4\nPSOLID,2,1\n")) {
+    windows += c == '\n' ? "\r\n" : std::string(1, c);
+  }
+  write_mesh(folder / "b.bdf", read(folder, windows));
+  const std::string written = test::read_text(folder / "b.bdf");
+  CHECK(written.find("PSOLID,2,1\r\nENDDATA\r\n") != std::string::npos);
+  CHECK(std::count(written.begin(), written.end(), '\n') ==
+        std::count(written.begin(), written.end(), '\r'));
+}
+
+TEST_CASE("new points and elements of a deck of Nastran get no number that one had before") {
+  const TempFolder folder;
+  MeshData mesh = read(folder, bulk("CTETRA,5,2,1,2,3,4\nCTETRA,9,2,1,2,3,5\n"));
+  mesh.tet_numbers[1] = 0;
+  mesh.point_numbers[9] = 0;
+  write_mesh(folder / "b.bdf", mesh);
+  const MeshData again = read_mesh(folder / "b.bdf");
+  CHECK(again.tet_numbers == std::vector<std::int64_t>{5, 10});
+  CHECK(again.point_numbers.back() == 11);
+}
+
+TEST_CASE("a deck of Nastran that holds a mesh alone is no deck to miss") {
+  const TempFolder folder;
+  const auto lost = [&](std::string_view cards) {
+    return not_written(folder / "a.vtu", read(folder, bulk(cards)));
+  };
+  CHECK(lost("CTETRA,5,2,1,2,3,4\n").empty());
+  CHECK(lost("CTETRA,5,2,1,2,3,4\nPSOLID,2,1\n") ==
+        std::vector<std::string>{
+            "1 pieces of a deck, all that is no mesh, are not kept: .vtu has no place for them"});
 }
 
 TEST_CASE("a tab behind a full field of Nastran ends it, one behind blanks goes to the next") {

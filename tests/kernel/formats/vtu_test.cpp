@@ -109,11 +109,11 @@ TEST_CASE("labels are guessed from the only array that could hold them, else ask
   CHECK(two.notes[0].find("'owner', 'my_region' might hold them") != std::string::npos);
   // A part for each combination of the two.
   CHECK(std::set<Label>(two.tet_parts.begin(), two.tet_parts.end()).size() == 4);
-  const MeshData doubles = read_with({{"zone", 1, zone}}, "");
-  CHECK(doubles.label_array == "zone");
+  const MeshData doubles = read_with({{"colour", 1, zone}}, "");
+  CHECK(doubles.label_array == "colour");
   CHECK(doubles.notes.empty());
   const std::vector<std::int32_t> same(zone.size(), 3);
-  CHECK(read_with({{"one", 1, same}, {"zone", 1, zone}, {"owner", 1, owner}, {"two", 1, same}}, "")
+  CHECK(read_with({{"one", 1, same}, {"colour", 1, zone}, {"owner", 1, owner}, {"two", 1, same}}, "")
             .label_array == "owner");
   CHECK(read_with({{"vtkProcessId", 1, owner}, {"my_region", 1, region}}, "").label_array ==
         "my_region");
