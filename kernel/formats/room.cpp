@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "kernel/formats/cgns.h"
+#include "kernel/formats/element_kinds.h"
 #include "kernel/formats/exodus.h"
 #include "kernel/formats/label_names.h"
 #include "kernel/formats/med.h"
@@ -171,6 +172,9 @@ std::vector<std::string> lost_in(const Room& room, const std::string& extension,
     const bool held = room.others && (room.holds == nullptr || room.holds(others.vtk_type));
     notes.lost(held, others.labels.size(),
                fmt::format("elements of VTK's type {} are", others.vtk_type));
+    const ElementKind* kind = element_kind(others.vtk_type);
+    if (held && room.data && kind != nullptr && !has_data(kind->dimension))
+      notes.arrays(kind->name, others.data, room);
   }
   const bool has_deck = !room.deck.empty() && room.deck == mesh.variant;
   const bool by_labels = !are_finer_than_labels(mesh.tets, mesh.tet_parts) &&
