@@ -169,6 +169,7 @@ void note_exodus_rest(const Hdf5Reader& file, MeshData& mesh, std::set<std::stri
   std::set<std::string> rest;
   for (std::string name : file.names("/")) {
     if (known.contains(name) || says_nothing(name)) continue;
+    if (file.text(name, "NAME").starts_with("This is a netCDF dimension")) continue;
     name.resize(name.find_last_not_of("0123456789") + 1);
     if (rest.insert(name).second) {
       mesh.notes.push_back(fmt::format("the tables {} are not kept", in_quotes(name)));

@@ -98,6 +98,21 @@ TEST_CASE("an XDMF file comes back with its grids of tags under their names") {
   }
 }
 
+TEST_CASE("arrays whose names are no text, or end in blanks, have tables that XDMF finds again") {
+  if (!formats::has_hdf5()) return;
+  const TempFolder folder;
+  write_text(folder / "a.xdmf", small_xdmf());
+  MeshData mesh = read_mesh(folder / "a.xdmf");
+  mesh.point_data.clear();
+  for (const char* name : {"\xe9q", "\xc3\xa9q", "T ", " T", "a/b", "a_b", ".", "..", "x\ny"})
+    mesh.point_data.push_back({name, 1, std::vector<double>(5, mesh.point_data.size())});
+  write_mesh(folder / "b.xdmf", mesh);
+  const MeshData again = read_mesh(folder / "b.xdmf");
+  REQUIRE(again.point_data.size() == mesh.point_data.size());
+  for (std::size_t k = 0; k < mesh.point_data.size(); ++k)
+    CHECK(again.point_data[k].values == mesh.point_data[k].values);
+}
+
 TEST_CASE("XDMF that makes no sense is refused with file, line and reason") {
   struct Case {
     std::string_view what, by, error;
