@@ -140,7 +140,7 @@ class Reader {
                                           block.count, in_quotes(file_->text(path, "elem_type"))));
       }
     }
-    if (blocks_.empty() && !mesh_.points.empty())
+    if (blocks_.empty() && !mesh_.points.empty() && !file_->has("/", "api_version"))
       file_->fail("/", "the file has no elements: expected a table connect1");
     std::size_t count = 0;
     for (const ExodusBlock& block : blocks_) count += block.count;

@@ -15,6 +15,7 @@
 #include "kernel/formats/med.h"
 #include "kernel/formats/medit_marks.h"
 #include "kernel/formats/medit_vectors.h"
+#include "kernel/formats/unv.h"
 #include "kernel/formats/vtk_roles.h"
 #include "kernel/formats/xdmf.h"
 #include "kernel/parts.h"
@@ -196,6 +197,7 @@ std::vector<std::string> lost_in(const Room& room, const std::string& extension,
              : mesh.variant == kExodus ? exodus_pieces_to_miss(mesh)
              : mesh.variant == kCgns   ? cgns_pieces_to_miss(mesh)
              : mesh.variant == kXdmf   ? 0
+             : mesh.variant == kUnv    ? unv_pieces_to_miss(mesh)
                                        : mesh.deck.size(),
              "pieces of a deck, all that is no mesh, are");
   return std::move(notes.sentences);

@@ -306,6 +306,8 @@ class UnvReader {
 
   void read_groups(const UnvDataset& dataset) {
     const bool is_wide = has_wide_groups(dataset.name);
+    if (is_wide && sets_.empty() && dataset.name != kUnvGroups)
+      mesh_.deck.push_back(fmt::format("{}{}", kUnvGroupsPiece, dataset.name));
     for (;;) {
       ElementSet set;
       set.number = text_.integer("the number of a group", kEnd, INT64_MAX);

@@ -203,6 +203,18 @@ TEST_CASE("variables of Exodus without a step are told, and the mesh is read") {
   }));
 }
 
+TEST_CASE("points of Exodus without elements come back; points of another netCDF file are refused") {
+  const TempFolder folder;
+  MeshData mesh;
+  mesh.points = {{0, 0, 0}, {1, 2, 3}};
+  write_mesh(folder / "a.e", mesh);
+  CHECK(read_mesh(folder / "a.e").points == mesh.points);
+  std::string bytes = read_text(folder / "a.e");
+  bytes[bytes.find("api_version")] = 'b';
+  write_text(folder / "a.e", bytes);
+  CHECK(error_of_reading(folder / "a.e").find("the file has no elements") != std::string::npos);
+}
+
 TEST_CASE("of the steps of a variable of Exodus the first is read, and no other is looked at") {
   const TempFolder folder;
   SmallExodus().write(folder / "a.e");
