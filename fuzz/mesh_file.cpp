@@ -59,8 +59,11 @@ bool is_rounded(const std::filesystem::path& file, const MeshData& mesh) {
 /// What was read comes back when it is written in the same format, and the second writing has the
 /// bytes of the first.
 void require_round_trip(const RamFolder& folder, const MeshData& mesh) {
-  const auto once = folder / ("once." + std::string(kExtension));
-  const auto twice = folder / ("twice." + std::string(kExtension));
+  // Under one name, which files that name others hold.
+  const std::string name = "/mesh." + std::string(kExtension);
+  const auto once = folder / ("once" + name);
+  const auto twice = folder / ("twice" + name);
+  for (const auto& file : {once, twice}) std::filesystem::create_directories(file.parent_path());
   try {
     write_mesh(once, mesh);
   } catch (const Error& error) {

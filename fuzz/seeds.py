@@ -66,20 +66,27 @@ SCRIPTS = [
 ]
 
 
-def formats(program, extension, folder):
+# Whose files of HDF5 are text here: build/checked/fuzz/write_tree writes them.
+OF_HDF5 = ["med", "cgns", "xdmf"]
+
+
+def formats(build, extension, folder):
     """Files of an extension, one for each variant."""
+    program = build / "bin" / "tetmend"
     help_text = subprocess.run([program, "convert", "--help"], capture_output=True, text=True).stdout
     meshes = []
     for name, text in (("tiny", TINY), ("curved", CURVED)):
         (folder / f"{name}.mesh").write_text(text)
-        out = folder / f"{name}_out.{extension}"
+        out = folder / name / f"in.{extension}"  # an XDMF file says what its tables are called
+        out.parent.mkdir()
         variants = [None]
         if extension == "msh":
             variants = re.findall(r"'([24]\.[12] \w+)'", help_text)
         elif extension in ("vtk", "vtu"):
             variants = ["ASCII", "binary"]
         for variant in variants:
-            command = [program, "convert", folder / f"{name}.mesh", out]
+            command = [build / "fuzz" / "write_tree"] if extension in OF_HDF5 else [program, "convert"]
+            command += [folder / f"{name}.mesh", out]
             command += ["--variant", variant] if variant else []
             if subprocess.run(command, capture_output=True).returncode == 0:
                 meshes.append(collect(out, name))
@@ -87,7 +94,8 @@ def formats(program, extension, folder):
 
 
 # What a format of several files is made of, by the ending of each.
-PARTS = {"node": ["node", "ele", "face", "edge"], "header": ["header", "nodes", "elements", "boundary", "names"]}
+PARTS = {"node": ["node", "ele", "face", "edge"], "header": ["header", "nodes", "elements", "boundary", "names"],
+         "xdmf": ["xdmf", "h5"]}
 
 
 def collect(out, name):
@@ -106,7 +114,6 @@ def collect(out, name):
 
 def seeds(target, build, source):
     """The contents of the first inputs of a target."""
-    program = build / "bin" / "tetmend"
     lessons = source / "assets" / "lessons"
     chance = random.Random(1)
     if target == "trace":
@@ -132,7 +139,7 @@ def seeds(target, build, source):
     if target == "improve":
         return [bytes(chance.randrange(256) for _ in range(size)) for size in range(8, 200, 4)]
     with tempfile.TemporaryDirectory() as folder:
-        return formats(program, target, Path(folder))
+        return formats(build, target, Path(folder))
 
 
 WORDS = {
@@ -163,6 +170,14 @@ WORDS = {
             "FiniteElementSpace FiniteElementCollection: H1_3D_P2 H1_3D_P1 VDim: Ordering:",
     "k": "*KEYWORD LONG=Y I10=Y *NODE *ELEMENT_SOLID *ELEMENT_SHELL *PART *SET_SOLID _TITLE _GENERATE *SET_NODE_LIST "
          "*SET_SEGMENT *BOUNDARY_SPC_NODE *INCLUDE *END",
+    "e": "CDF num_nodes num_elem num_el_blk num_dim len_name connect1 elem_type TETRA coordx eb_prop1 ss_prop1 side_ss1 elem_ss1 "
+         "node_ns1 ns_names eb_names elem_num_map node_num_map vals_nod_var1 name_nod_var vals_elem_var1eb1 time_step",
+    "med": "ENS_MAA FAS CHA NOE MAI TE4 T10 TR3 SE2 NOD FAM NUM COO NOM GRO MED_NO_PROFILE_INTERNAL PFL NGA NCO TYP i32 i64 f64",
+    "cgns": "CGNSBase_t Zone_t ZoneType_t Unstructured GridCoordinates_t CoordinateX DataArray_t Elements_t ElementRange "
+            "ElementConnectivity ZoneBC_t BC_t PointList PointRange GridLocation_t FaceCenter Vertex FlowSolution_t Family_t "
+            "Ordinal_t i32 i64 f64",
+    "xdmf": "Xdmf Domain Grid Topology Geometry Attribute DataItem TopologyType Tetrahedron Triangle Mixed GeometryType XYZ X_Y_Z "
+            "Format HDF XML Binary Dimensions NumberType Center Cell Node Collection Temporal in.h5:/",
     "feb": "febio_spec Mesh Geometry Nodes node Elements elem type= name= id= mat= tet4 tet10 hex8 tri3 tri6 quad4 Surface "
            "NodeSet ElementSet MeshDomains MeshData ElementData",
 }

@@ -12,6 +12,7 @@
 
 #include "kernel/formats/element_kinds.h"
 #include "kernel/formats/tet_place.h"
+#include "kernel/formats/unique_names.h"
 #include "kernel/formats/vector_parts.h"
 #include "kernel/mesh_data.h"
 #include "kernel/mesh_view.h"
@@ -45,14 +46,19 @@ inline constexpr std::int32_t kCgnsMixed = 20;
 /// How names of sections begin whose elements have the label 0.
 inline constexpr std::string_view kCgnsUnlabelled = "Unlabelled";
 
+/// The node of a solution or condition that says of what it is.
+inline constexpr std::string_view kCgnsLocation = "GridLocation";
+
 inline constexpr AxisEndings kCgnsAxes = {"X", "Y", "Z"};
 
 inline bool cgns_holds(int vtk_type) {
   return element_kind(vtk_type) != nullptr;
 }
 
-/// Names of nodes of the tree have 32 bytes at most, without '/'.
-inline constexpr std::size_t kCgnsName = 32;
+/// Of nodes of the tree.
+inline constexpr NameRules kCgnsNames = {.most = 32, .slash = '_'};
+/// Those of the arrays of a solution, where a node says what they are values of.
+UniqueNames cgns_array_names();
 bool is_cgns_name(std::string_view name);
 
 /// How many pieces of its deck a reader of another format would miss.

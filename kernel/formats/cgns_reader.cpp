@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Reads CGNS files. A node of the tree is a group of HDF5 that says by its attribute "label" what
-// it is; its numbers are the table " data" in it.
+// Reads CGNS files.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
-#include <memory>
+#include <optional>
 #include <set>
 #include <string>
 #include <type_traits>
@@ -15,18 +15,16 @@
 
 #include "kernel/error.h"
 #include "kernel/formats/cgns.h"
+#include "kernel/formats/cgns_tree.h"
 #include "kernel/formats/element_checks.h"
 #include "kernel/formats/element_orders.h"
 #include "kernel/formats/element_rows.h"
 #include "kernel/formats/element_sets.h"
-#include "kernel/formats/hdf5_file.h"
 #include "kernel/formats/inp_lines.h"
 #include "kernel/formats/inp_sets.h"
 
 namespace tetmend::formats {
 namespace {
-
-constexpr std::uint32_t kNoPlace = UINT32_MAX;
 
 /// Elements with consecutive numbers.
 struct CgnsSection {
@@ -36,10 +34,16 @@ struct CgnsSection {
   std::vector<std::uint32_t> places;  // of each element; kNoPlace: it is not kept
 };
 
+/// Edges and faces that are none of ours: of nine nodes, polygons, of third and fourth order.
+bool is_of_other_faces(std::int64_t type) {
+  constexpr std::array<std::int64_t, 12> kTypes = {9, 22, 24, 25, 26, 27, 28, 40, 41, 42, 43, 44};
+  return std::find(kTypes.begin(), kTypes.end(), type) != kTypes.end();
+}
+
 class Reader {
  public:
   Reader(const InputFile& input, TetPlace* question)
-      : input_(input), file_(open_hdf5(input, "CGNS")), question_(question), sorter_(mesh_) {}
+      : input_(input), tree_(input), question_(question), sorter_(mesh_) {}
 
   MeshData read() {
     find_zone();
@@ -53,7 +57,7 @@ class Reader {
       volumes_.insert(volumes_.end(), sets->begin(), sets->end());
     if (!volumes_.empty()) add_groups(mesh_, places_, homes_, volumes_);
     read_solutions();
-    note_the_rest();
+    for (std::string& note : tree_.notes_of_the_rest()) mesh_.notes.push_back(std::move(note));
     mesh_.variant = kCgns;
     return std::move(mesh_);
   }
@@ -61,84 +65,65 @@ class Reader {
  private:
   // ---- The tree -----------------------------------------------------------------------------------
 
-  std::string label(const std::string& path) const { return file_->text(path, "label"); }
-  /// Nodes below one that have this label.
-  std::vector<std::string> children(const std::string& path, std::string_view wanted) const {
-    std::vector<std::string> found;
-    for (const std::string& name : file_->names(path)) {
-      const std::string below = path == "/" ? name : path + "/" + name;
-      if (name != " data" && label(below) == wanted) found.push_back(below);
-    }
-    return found;
-  }
-  static std::string last_name(const std::string& path) { return path.substr(path.rfind('/') + 1); }
-  static std::string data_of(const std::string& path) { return path + "/ data"; }
-  std::string characters(const std::string& path) const {
-    if (!file_->has(data_of(path))) return {};
-    const std::vector<std::string> rows = file_->texts(data_of(path));
-    return rows.empty() ? std::string() : rows[0];
-  }
-  std::string only_text(const std::string& path, std::string_view wanted) const {
-    const std::vector<std::string> found = children(path, wanted);
-    return found.empty() ? std::string() : characters(found[0]);
-  }
   void keep(std::string_view what, const std::string& name, const std::string& text) {
     if (!text.empty()) mesh_.deck.push_back(fmt::format("{} {}{}{}", what, name, '\0', text));
   }
 
   void find_zone() {
+    tree_.children("/", "CGNSLibraryVersion_t");
     std::vector<std::string> zones;
-    for (const std::string& base : children("/", "CGNSBase_t")) {
-      for (std::string& zone : children(base, "Zone_t")) zones.push_back(std::move(zone));
+    for (const std::string& base : tree_.children("/", "CGNSBase_t")) {
+      for (std::string& zone : tree_.children(base, "Zone_t")) zones.push_back(std::move(zone));
     }
     if (zones.size() != 1) {
-      file_->fail("/", fmt::format("the file has {} zones: expected one", zones.size()));
+      tree_.fail("/", fmt::format("the file has {} zones: expected one", zones.size()));
     }
     zone_ = zones[0];
     base_ = zone_.substr(0, zone_.find('/'));
     keep("name", "base", base_);
-    keep("name", "zone", last_name(zone_));
-    const std::vector<std::int64_t> dimensions = file_->integers(data_of(base_));
+    keep("name", "zone", CgnsTree::last_name(zone_));
+    const std::vector<std::int64_t> dimensions = tree_.integers(base_);
     if (dimensions.size() != 2 || dimensions[1] != 3)
-      file_->fail(base_, "the mesh does not lie in space");
-    if (only_text(zone_, "ZoneType_t") != "Unstructured")
-      file_->fail(zone_, "the zone is structured: expected tets");
-    for (const std::string& family : children(base_, "Family_t")) {
-      keep("family", last_name(family), only_text(family, "FamilyBC_t") + " ");
+      tree_.fail(base_, "the mesh does not lie in space");
+    if (tree_.text_below(zone_, "ZoneType_t") != "Unstructured")
+      tree_.fail(zone_, "the zone is structured: expected tets");
+    keep("zone family", CgnsTree::last_name(zone_), tree_.text_below(zone_, "FamilyName_t"));
+    for (const std::string& family : tree_.children(base_, "Family_t")) {
+      keep("family", CgnsTree::last_name(family), tree_.text_below(family, "FamilyBC_t") + " ");
     }
   }
 
   // ---- Points and elements ------------------------------------------------------------------------
 
   void read_points() {
-    const auto grids = children(zone_, "GridCoordinates_t");
-    if (grids.empty()) file_->fail(zone_, "the zone has no coordinates");
+    const auto grids = tree_.children(zone_, "GridCoordinates_t");
+    if (grids.empty()) tree_.fail(zone_, "the zone has no coordinates");
     if (grids.size() > 1) mesh_.notes.emplace_back("only the first of several grids is kept");
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      const std::string path = data_of(fmt::format("{}/Coordinate{}", grids[0], kCgnsAxes[axis]));
-      const std::vector<double> all = file_->reals(path);
+      const std::string path = fmt::format("{}/Coordinate{}", grids[0], kCgnsAxes[axis]);
+      const std::vector<double> all = tree_.reals(path);
       if (axis == 0) mesh_.points.resize(all.size());
       if (all.size() != mesh_.points.size() || all.size() > kMostVertices) {
-        file_->fail(path, fmt::format("the table has {} values: expected {}", all.size(),
-                                      mesh_.points.size()));
+        tree_.fail(path, fmt::format("the table has {} values: expected {}", all.size(),
+                                     mesh_.points.size()));
       }
       for (std::size_t i = 0; i < all.size(); ++i) {
         if (!std::isfinite(all[i]))
-          file_->fail(path, fmt::format("a coordinate of point {} is not finite", i + 1));
+          tree_.fail(path, fmt::format("a coordinate of point {} is not finite", i + 1));
         mesh_.points[i][static_cast<Eigen::Index>(axis)] = all[i];
       }
     }
   }
 
   void read_sections() {
-    for (const std::string& path : children(zone_, "Elements_t")) {
+    for (const std::string& path : tree_.children(zone_, "Elements_t")) {
       CgnsSection section;
       section.path = path;
-      section.name = last_name(path);
-      const auto range = file_->integers(data_of(path + "/ElementRange"));
-      const auto type = file_->integers(data_of(path));
+      section.name = CgnsTree::last_name(path);
+      const auto range = tree_.integers(path + "/ElementRange");
+      const auto type = tree_.integers(path);
       if (range.size() != 2 || range[0] < 1 || range[1] < range[0] || type.empty())
-        file_->fail(path, "the section has no range of elements");
+        tree_.fail(path, "the section has no range of elements");
       section.first = range[0], section.last = range[1];
       section.type = type[0];
       sections_.push_back(std::move(section));
@@ -147,7 +132,7 @@ class Reader {
               [](const CgnsSection& a, const CgnsSection& b) { return a.first < b.first; });
     for (std::size_t s = 0; s < sections_.size(); ++s) {
       if (s > 0 && sections_[s].first <= sections_[s - 1].last)
-        file_->fail(sections_[s].path, "the range of elements overlaps that of another section");
+        tree_.fail(sections_[s].path, "the range of elements overlaps that of another section");
       read_section(sections_[s], static_cast<std::uint32_t>(s));
     }
   }
@@ -156,32 +141,40 @@ class Reader {
     const auto found = std::find_if(kCgnsTypes.begin(), kCgnsTypes.end(),
                                     [&](const CgnsType& each) { return each.number == type; });
     if (found == kCgnsTypes.end()) {
-      file_->fail(section.path, fmt::format("elements of CGNS' type {} cannot be kept", type));
+      tree_.fail(section.path, fmt::format("elements of CGNS' type {} cannot be kept", type));
     }
     return element_kind(found->vtk_type);
   }
 
   void read_section(CgnsSection& section, std::uint32_t home) {
-    const std::string path = data_of(section.path + "/ElementConnectivity");
-    const std::vector<std::int64_t> all = file_->integers(path);
+    const std::string path = section.path + "/ElementConnectivity";
+    const std::vector<std::int64_t> all = tree_.integers(path);
+    for (const char* known : {"/ElementStartOffset", "/ParentElements", "/ParentElementsPosition"})
+      tree_.see(section.path + known);  // which follow from the elements
     const std::int64_t count = section.last - section.first + 1;
     if (count > static_cast<std::int64_t>(all.size())) {
-      file_->fail(path, fmt::format("{} elements do not fit into {} numbers", count, all.size()));
+      tree_.fail(path, fmt::format("{} elements do not fit into {} numbers", count, all.size()));
+    }
+    if (is_of_other_faces(section.type)) {
+      section.places.assign(static_cast<std::size_t>(count), kNoPlace);
+      mesh_.notes.push_back(fmt::format("the section {} is not kept: {} elements of CGNS' type {}",
+                                        in_quotes(section.name), count, section.type));
+      return;
     }
     std::size_t at = 0;
     const bool is_mixed = section.type == kCgnsMixed;
     for (std::int64_t i = 0; i < count; ++i) {
-      if (is_mixed && at == all.size()) file_->fail(path, "the table ends too early");
+      if (is_mixed && at == all.size()) tree_.fail(path, "the table ends too early");
       ElementRow row;
       row.kind = kind_of(section, is_mixed ? all[at++] : section.type);
-      if (row.kind->width > all.size() - at) file_->fail(path, "the table ends too early");
+      if (row.kind->width > all.size() - at) tree_.fail(path, "the table ends too early");
       const auto order = upright_first_order(row.kind->vtk_type);
       for (std::size_t k = 0; k < row.kind->width; ++k) {
         const std::int64_t node = all[at + (order.empty() ? k : order[k])];
         if (node < 1 || node > static_cast<std::int64_t>(mesh_.points.size())) {
-          file_->fail(
-              path, fmt::format("'{}' in element {} is not the number of a node: expected 1 to {}",
-                                node, section.first + i, mesh_.points.size()));
+          tree_.fail(path,
+                     fmt::format("'{}' in element {} is not the number of a node: expected 1 to {}",
+                                 node, section.first + i, mesh_.points.size()));
         }
         row.vertices[k] = static_cast<std::uint32_t>(node - 1);
       }
@@ -192,7 +185,7 @@ class Reader {
             fmt::format("{}: '/{}': element {}", input_.name(), section.path, section.first + i);
       }
     }
-    if (at != all.size()) file_->fail(path, "the table is longer than its elements");
+    if (at != all.size()) tree_.fail(path, "the table is longer than its elements");
   }
 
   void add(const ElementRow& row, CgnsSection& section, std::uint32_t home) {
@@ -210,60 +203,70 @@ class Reader {
   // ---- Boundary conditions ------------------------------------------------------------------------
 
   void read_conditions() {
-    for (const std::string& list : children(zone_, "ZoneBC_t")) {
-      for (const std::string& path : children(list, "BC_t")) read_condition(path);
+    for (const std::string& list : tree_.children(zone_, "ZoneBC_t")) {
+      for (const std::string& path : tree_.children(list, "BC_t")) read_condition(path);
     }
   }
 
   void read_condition(const std::string& path) {
     ElementSet set;
-    set.name = last_name(path);
-    if (const std::string type = characters(path); type != "Null") keep("bc", set.name, type);
-    for (const std::string& ordinal : children(path, "Ordinal_t")) {
-      for (const std::int64_t number : file_->integers(data_of(ordinal))) set.number = number;
+    set.name = CgnsTree::last_name(path);
+    if (const std::string type = tree_.characters(path); type != "Null") keep("bc", set.name, type);
+    for (const std::string& ordinal : tree_.children(path, "Ordinal_t")) {
+      for (const std::int64_t number : tree_.integers(ordinal)) set.number = number;
     }
-    keep("bc family", set.name, only_text(path, "FamilyName_t"));
-    std::string location = only_text(path, "GridLocation_t");
+    keep("bc family", set.name, tree_.text_below(path, "FamilyName_t"));
+    std::string location = tree_.text_below(path, "GridLocation_t");
     std::vector<std::int64_t> members;
     for (const char* what : {"PointList", "PointRange", "ElementList", "ElementRange"}) {
-      const std::string below = data_of(path + "/" + what);
-      if (!file_->has(below)) continue;
-      members = file_->integers(below);
+      const std::string below = fmt::format("{}/{}", path, what);
+      if (!tree_.has(below)) continue;
+      members = tree_.integers(below);
       if (std::string_view(what).starts_with("Element")) location = "FaceCenter";
       if (!std::string_view(what).ends_with("Range")) break;
       if (members.size() != 2 || members[0] < 1 || members[1] < members[0] ||
           members[1] - members[0] > static_cast<std::int64_t>(places_.size() + mesh_.points.size()))
-        file_->fail(path, "its range makes no sense");
+        tree_.fail(path, "its range makes no sense");
       const std::int64_t last = members[1];
       members.pop_back();
       while (members.back() < last) members.push_back(members.back() + 1);
       break;
     }
-    if (members.empty()) {
-      mesh_.notes.push_back(
-          fmt::format("the boundary condition {} is empty: not kept", in_quotes(set.name)));
-      return;
-    }
     const bool is_of_points = location.empty() || location == "Vertex";
+    std::size_t lost = 0;
     for (const std::int64_t member : members) {
-      const std::uint32_t place = is_of_points ? point(member) : element(member);
-      if (place == kNoPlace)
-        file_->fail(path, fmt::format("'{}' is not the number of {}", member,
-                                      is_of_points ? "a point" : "an element"));
-      (is_of_points ? set.points : set.elements).push_back(place);
+      const std::optional<std::uint32_t> place = is_of_points ? point(member) : element(member);
+      if (!place) {
+        tree_.fail(path, fmt::format("'{}' is not the number of {}", member,
+                                     is_of_points ? "a point" : "an element"));
+      }
+      lost += *place == kNoPlace ? 1 : 0;
+      if (*place != kNoPlace) (is_of_points ? set.points : set.elements).push_back(*place);
     }
-    (is_of_points ? points_ : surfaces_).push_back(std::move(set));
+    note_lost_members(set, lost);
+    if (lost < members.size()) (is_of_points ? points_ : surfaces_).push_back(std::move(set));
   }
 
-  std::uint32_t point(std::int64_t number) const {
-    if (number < 1 || number > static_cast<std::int64_t>(mesh_.points.size())) return kNoPlace;
+  void note_lost_members(const ElementSet& set, std::size_t lost) {
+    if (set.points.empty() && set.elements.empty()) {
+      mesh_.notes.push_back(
+          fmt::format("the boundary condition {} has no members: not kept", in_quotes(set.name)));
+    } else if (lost > 0) {
+      mesh_.notes.push_back(fmt::format(
+          "{} of {} members of the boundary condition {} are not kept: they are in no mesh", lost,
+          lost + set.points.size() + set.elements.size(), in_quotes(set.name)));
+    }
+  }
+
+  std::optional<std::uint32_t> point(std::int64_t number) const {
+    if (number < 1 || number > static_cast<std::int64_t>(mesh_.points.size())) return std::nullopt;
     return static_cast<std::uint32_t>(number - 1);
   }
-  std::uint32_t element(std::int64_t number) const {
+  std::optional<std::uint32_t> element(std::int64_t number) const {
     const auto next = std::upper_bound(
         sections_.begin(), sections_.end(), number,
         [](std::int64_t n, const CgnsSection& section) { return n < section.first; });
-    if (next == sections_.begin() || number > std::prev(next)->last) return kNoPlace;
+    if (next == sections_.begin() || number > std::prev(next)->last) return std::nullopt;
     return std::prev(next)->places[static_cast<std::size_t>(number - std::prev(next)->first)];
   }
 
@@ -274,11 +277,13 @@ class Reader {
       for (const std::uint32_t place : set.elements) with_conditions.insert(homes_[place]);
     }
     for (std::uint32_t s = 0; s < sections_.size(); ++s) {
+      const auto& places = sections_[s].places;
       const bool is_bare = sections_[s].name.starts_with(kCgnsUnlabelled);
-      if (with_conditions.contains(s) || sections_[s].places.empty() || is_bare) continue;
+      if (with_conditions.contains(s) || places.empty() || places[0] == kNoPlace || is_bare)
+        continue;
       ElementSet set;
       set.name = sections_[s].name;
-      set.elements = sections_[s].places;
+      set.elements = places;
       const bool is_volume = places_[set.elements[0]].of().dimension == 3;
       (is_volume ? volumes_ : surfaces_).push_back(std::move(set));
     }
@@ -308,12 +313,12 @@ class Reader {
   void read_solutions() {
     std::set<std::string> known;  // names of arrays, with where they are
     std::size_t lost = 0;
-    for (const std::string& solution : children(zone_, "FlowSolution_t")) {
-      const std::string location = only_text(solution, "GridLocation_t");
+    for (const std::string& solution : tree_.children(zone_, "FlowSolution_t")) {
+      const std::string location = tree_.text_below(solution, "GridLocation_t");
       const bool is_of_points = location.empty() || location == "Vertex";
-      for (const std::string& path : children(solution, "DataArray_t")) {
+      for (const std::string& path : tree_.children(solution, "DataArray_t")) {
         const bool is_kept = (is_of_points || location == "CellCenter") &&
-                             known.insert(location + "/" + last_name(path)).second &&
+                             known.insert(location + "/" + CgnsTree::last_name(path)).second &&
                              add_array(path, is_of_points);
         lost += is_kept ? 0 : 1;
       }
@@ -331,7 +336,7 @@ class Reader {
 
   /// False if it has not one value for each.
   bool add_array(const std::string& path, bool is_of_points) {
-    DataArray array{last_name(path), 1, file_->values(data_of(path))};
+    DataArray array{CgnsTree::last_name(path), 1, tree_.values(path)};
     if (is_of_points) {
       if (array.size() != mesh_.points.size()) return false;
       mesh_.point_data.push_back(std::move(array));
@@ -358,22 +363,8 @@ class Reader {
     return true;
   }
 
-  void note_the_rest() {
-    const std::set<std::string> known = {
-        "CGNSBase_t",        "CGNSLibraryVersion_t", "Zone_t",   "ZoneType_t",
-        "GridCoordinates_t", "Elements_t",           "ZoneBC_t", "Family_t",
-        "FlowSolution_t",    "FamilyName_t"};
-    for (const std::string& path : {std::string("/"), base_, zone_}) {
-      for (const std::string& name : file_->names(path)) {
-        const std::string below = path == "/" ? name : path + "/" + name;
-        if (name.starts_with(' ') || known.contains(label(below))) continue;
-        mesh_.notes.push_back(fmt::format("the node {} is not kept", in_quotes("/" + below)));
-      }
-    }
-  }
-
   const InputFile& input_;
-  std::unique_ptr<Hdf5Reader> file_;
+  CgnsTree tree_;
   TetPlace* question_;
   MeshData mesh_;
   ElementSorter sorter_;

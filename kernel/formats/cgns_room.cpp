@@ -12,10 +12,13 @@
 namespace tetmend::formats {
 
 bool is_cgns_name(std::string_view name) {
-  return !name.empty() && name.size() <= kCgnsName && name != "." && name != ".." &&
-         name.front() != ' ' && name.back() != ' ' &&
-         std::none_of(name.begin(), name.end(),
-                      [](char c) { return c == '/' || static_cast<unsigned char>(c) < ' '; });
+  return fits(name, kCgnsNames);
+}
+
+UniqueNames cgns_array_names() {
+  UniqueNames names(kCgnsNames);
+  names.take(kCgnsLocation);
+  return names;
 }
 
 std::size_t cgns_pieces_to_miss(const MeshData& mesh) {
@@ -34,21 +37,15 @@ std::vector<std::string> not_in_cgns(const std::filesystem::path&, const MeshDat
       return list->data != nullptr && find_like(*list->data, array) != nullptr;
     });
   };
-  const auto look = [&](const std::vector<DataArray>& arrays, bool is_of_points) {
-    for (const DataArray& array : arrays) {
-      if (!is_of_points && !is_everywhere(array)) {
-        notes.push_back(fmt::format("the array '{}' is not kept: not all volumes have it",
-                                    printable(array.name)));
-      } else if (!is_cgns_name(array.name + "X") ||
-                 (array.components != 1 && array.components != 3)) {
-        notes.push_back(fmt::format("the array '{}' is not kept as it is: .cgns has other rules",
-                                    printable(array.name)));
-      }
-    }
-  };
-  look(mesh.point_data, true);
+  note_component_arrays(mesh.point_data, kCgnsAxes, cgns_array_names(), ".cgns", notes);
   for (const ElementList* list : volumes) {
-    if (list->data != nullptr) look(*list->data, false);
+    if (list->data == nullptr) continue;
+    note_component_arrays(*list->data, kCgnsAxes, cgns_array_names(), ".cgns", notes);
+    for (const DataArray& array : *list->data) {
+      if (is_everywhere(array)) continue;
+      notes.push_back(fmt::format("the array '{}' is not kept: not all volumes have it",
+                                  printable(array.name)));
+    }
   }
   const LabelNames names(mesh);
   std::size_t lost = 0;

@@ -14,6 +14,7 @@
 #include <fmt/format.h>
 
 #include "kernel/formats/cgns.h"
+#include "kernel/formats/cgns_tree.h"
 #include "kernel/formats/element_orders.h"
 #include "kernel/formats/element_rows.h"
 #include "kernel/formats/element_sets.h"
@@ -36,19 +37,6 @@ std::optional<std::string> piece_of(const MeshData* mesh, std::string_view what,
     if (piece.starts_with(begin)) return piece.substr(begin.size());
   }
   return std::nullopt;
-}
-
-std::string fit_cgns_name(std::string name) {
-  if (is_cgns_name(name)) return name;
-  constexpr std::size_t kEnding = 4;  // which keeps names apart
-  for (char& c : name) {
-    if (c == '/' || static_cast<unsigned char>(c) < ' ') c = '_';
-  }
-  if (name.size() > kCgnsName) name.resize(kCgnsName - kEnding);
-  while (!name.empty() && (name.back() == ' ' || name.front() == ' ')) {
-    name = name.front() == ' ' ? name.substr(1) : name.substr(0, name.size() - 1);
-  }
-  return name.empty() || name == "." || name == ".." ? "unnamed" : name;
 }
 
 /// Elements of one dimension and label.
@@ -106,10 +94,11 @@ class Writer {
       for (const auto& [k, i] : section.elements) numbers_[k][i] = next++;
     }
     // Other nodes of a zone.
-    for (const char* taken : {"ZoneType", "GridCoordinates", "ZoneBC", "PointData", "CellData"})
+    for (const char* taken :
+         {"ZoneType", "GridCoordinates", "ZoneBC", "PointData", "CellData", "FamilyName"})
       section_names_.take(taken);
     for (std::size_t g = 0; g < members_.size(); ++g) name_section(g);
-    UniqueNames names;
+    UniqueNames names(kCgnsNames);
     for (const WrittenSection& section : sections_) names.take(section.name);
     for (WrittenSection& section : sections_) {
       if (!section.name.empty()) continue;
@@ -131,7 +120,7 @@ class Writer {
         return list_of(member).label(member.index) == label;
       };
       if (!fits || !std::all_of(elements.begin(), elements.end(), is_in)) continue;
-      section.name = section_names_.make(fit_cgns_name(group(g).name));
+      section.name = section_names_.make_fit(group(g).name);
       return;
     }
   }
@@ -140,7 +129,7 @@ class Writer {
 
   std::string node(const std::string& path, std::string_view label, std::string_view type = "MT") {
     file_->group(path);
-    file_->set(path, "name", path.substr(path.rfind('/') + 1));
+    file_->set(path, "name", CgnsTree::last_name(path));
     file_->set(path, "label", std::string(label));
     file_->set(path, "type", std::string(type));
     file_->set(path, "flags", 1);
@@ -186,6 +175,8 @@ class Writer {
     node(zone_, "Zone_t", integers({static_cast<std::int64_t>(mesh_.point_count()), volumes, 0}),
          1);
     text_node(zone_ + "/ZoneType", "ZoneType_t", "Unstructured");
+    if (const auto family = piece_of(mesh_.data(), "zone family", CgnsTree::last_name(zone_)))
+      text_node(zone_ + "/FamilyName", "FamilyName_t", *family);
     if (mesh_.data() == nullptr) return;
     for (const std::string& piece : mesh_.data()->deck) {
       constexpr std::string_view kFamily = "family ";
@@ -241,7 +232,7 @@ class Writer {
 
   /// Groups of points and faces, and labels of faces without a group.
   void write_conditions() {
-    UniqueNames names;
+    UniqueNames names(kCgnsNames);
     std::vector<std::vector<bool>> is_named(lists_.all().size());
     for (std::size_t k = 0; k < is_named.size(); ++k) is_named[k].resize(lists_.all()[k].count);
     for (std::size_t g = 0; g < members_.size(); ++g) {
@@ -253,7 +244,7 @@ class Writer {
         list.push_back(numbers_[k][i]);
         is_named[k][i] = true;
       }
-      write_condition(names.make(fit_cgns_name(group(g).name)), group(g), std::move(list));
+      write_condition(names.make_fit(group(g).name), group(g), std::move(list));
     }
     for (const WrittenSection& section : sections_) {
       if (section.dimension != 2 || section.label == 0) continue;
@@ -275,7 +266,7 @@ class Writer {
         text_node(conditions + "/" + name, "BC_t",
                   piece_of(mesh_.data(), "bc", name).value_or(family ? "FamilySpecified" : "Null"));
     node(path + "/PointList", "IndexArray_t", integers(std::move(list)), 1);
-    text_node(path + "/GridLocation", "GridLocation_t",
+    text_node(fmt::format("{}/{}", path, kCgnsLocation), "GridLocation_t",
               group.dimension == 0 ? "Vertex" : "FaceCenter");
     if (group.number > 0)
       node(path + "/Ordinal", "Ordinal_t", std::vector<std::int32_t>{group.number});
@@ -286,22 +277,23 @@ class Writer {
 
   void write_solutions() {
     if (mesh_.data() == nullptr) return;
-    UniqueNames names;
+    UniqueNames point_names = cgns_array_names();
+    std::set<std::string> points_have, cells_have;
     for (const DataArray& array : mesh_.data()->point_data) {
-      const auto of_array = component_names(array, kCgnsAxes);
-      for (std::size_t c = 0; c < of_array.size(); ++c)
-        write_array("PointData", "Vertex", names.make(fit_cgns_name(of_array[c])),
-                    component_values(array, c));
+      if (!points_have.insert(array.name).second) continue;  // see Room::names_are_unique
+      const auto names = component_names(array, kCgnsAxes, point_names);
+      for (std::size_t c = 0; c < names.size(); ++c)
+        write_array("PointData", "Vertex", names[c], component_values(array, c));
     }
     const auto volumes = lists_.of_dimension(3);
     if (volumes.empty() || volumes[0]->data == nullptr) return;
-    UniqueNames cell_names;
+    UniqueNames cell_names = cgns_array_names();
     for (const DataArray& array : *volumes[0]->data) {
-      const auto of_array = component_names(array, kCgnsAxes);
-      for (std::size_t c = 0; c < of_array.size(); ++c) {
-        if (auto values = values_of_volumes(array, c))
-          write_array("CellData", "CellCenter", cell_names.make(fit_cgns_name(of_array[c])),
-                      *values);
+      if (!cells_have.insert(array.name).second) continue;
+      const auto names = component_names(array, kCgnsAxes, cell_names);
+      for (std::size_t c = 0; c < names.size(); ++c) {
+        if (const auto values = values_of_volumes(array, c))
+          write_array("CellData", "CellCenter", names[c], *values);
       }
     }
   }
@@ -311,7 +303,7 @@ class Writer {
     const std::string path = zone_ + "/" + solution;
     if (solutions_.insert(solution).second) {
       node(path, "FlowSolution_t");
-      text_node(path + "/GridLocation", "GridLocation_t", location);
+      text_node(fmt::format("{}/{}", path, kCgnsLocation), "GridLocation_t", location);
     }
     node(path + "/" + name, "DataArray_t", values);
   }
@@ -346,7 +338,7 @@ class Writer {
   ElementLists lists_;
   std::vector<GroupMembers> members_;
   std::vector<WrittenSection> sections_;
-  UniqueNames section_names_;
+  UniqueNames section_names_{kCgnsNames};
   std::vector<std::vector<std::int64_t>> numbers_;  // of each list, in the file
   std::string base_, zone_;
   bool has_conditions_ = false;

@@ -54,6 +54,10 @@ inline constexpr std::array<ElementKind, 15> kElementKinds = {
      {vtk_prism15, 3, 15, 6, "prism of 15 nodes"},
      {vtk_pyramid13, 3, 13, 5, "pyramid of 13 nodes"}}};
 
+/// A face by its corners, as vertices of its element.
+using FaceCorners = std::array<std::uint8_t, 4>;
+inline constexpr std::uint8_t kNoCorner = 255;  ///< the last corner of a triangle
+
 /// Null if the kind is none of these.
 inline constexpr const ElementKind* element_kind(std::int64_t vtk_type) {
   for (const ElementKind& kind : kElementKinds) {

@@ -79,6 +79,25 @@ ElementPlace last_place(const MeshData& mesh, const ElementKind& kind) {
   return {number, static_cast<std::uint32_t>(last() - 1)};
 }
 
+std::span<const std::uint32_t> vertices_at(const MeshData& mesh, ElementPlace place) {
+  switch (place.of().vtk_type) {
+    case vtk_tet:
+      return mesh.tets[place.index].vertices;
+    case vtk_triangle:
+      return mesh.triangles[place.index].vertices;
+    case vtk_edge:
+      return mesh.edges[place.index].vertices;
+    default:
+      break;
+  }
+  const std::size_t width = place.of().width;
+  for (const OtherElements& others : mesh.other_elements) {
+    if (others.vtk_type == place.of().vtk_type)
+      return std::span(others.vertices).subspan(place.index * width, width);
+  }
+  return {};
+}
+
 Label& label_at(MeshData& mesh, ElementPlace place) {
   switch (place.of().vtk_type) {
     case vtk_tet:

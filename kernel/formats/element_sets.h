@@ -22,10 +22,15 @@ struct ElementPlace {
   const ElementKind& of() const { return kElementKinds[kind]; }
 };
 
+/// The place of an element that is not kept.
+inline constexpr std::uint32_t kNoPlace = UINT32_MAX;
+
 /// Of the element of this kind that an ElementSorter added last.
 ElementPlace last_place(const MeshData& mesh, const ElementKind& kind);
 /// The label of an element. Precondition: the mesh has it.
 Label& label_at(MeshData& mesh, ElementPlace place);
+/// Likewise its vertices.
+std::span<const std::uint32_t> vertices_at(const MeshData& mesh, ElementPlace place);
 
 /// Faces that several sets of a file name, each once.
 class FacesOnce {

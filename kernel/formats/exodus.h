@@ -13,6 +13,7 @@
 
 #include "kernel/formats/element_kinds.h"
 #include "kernel/formats/tet_place.h"
+#include "kernel/formats/unique_names.h"
 #include "kernel/mesh_data.h"
 #include "kernel/mesh_view.h"
 
@@ -65,17 +66,16 @@ inline constexpr std::array<ExodusType, 31> kExodusTypes = {
 const ElementKind* exodus_kind(std::string_view name, std::uint64_t width);
 bool is_exodus_volume(std::string_view name);
 
-/// Side s of a volume or shell, in Exodus' order: its corners, as vertices of the element; 255: it is
-/// a triangle. Empty: no such side.
-using ExodusSide = std::array<std::uint8_t, 4>;
-std::span<const ExodusSide> exodus_sides(const ElementKind& kind);
+/// The sides of a volume or shell, in Exodus' order. Empty: it has none.
+std::span<const FaceCorners> exodus_sides(const ElementKind& kind);
 
 inline bool exodus_holds(int vtk_type) {
   return element_kind(vtk_type) != nullptr;
 }
 
-/// Names have 32 bytes at most, for programs read no more.
-inline constexpr std::size_t kExodusName = 32;
+/// Names of 32 bytes any program reads, longer ones those that ask how long they are.
+inline constexpr std::size_t kShortExodusName = 32;
+inline constexpr NameRules kExodusNames = {.most = 255};
 bool is_exodus_name(std::string_view name);
 
 /// How many pieces of its deck a reader of another format would miss.

@@ -6,14 +6,11 @@
 #include <cstdlib>
 #include <set>
 
-#include "kernel/formats/exodus.h"
+#include "kernel/formats/exodus_tables.h"
 #include "kernel/formats/face_sides.h"
-#include "kernel/formats/unique_names.h"
 
 namespace tetmend::formats {
 namespace {
-
-constexpr std::uint8_t kNoVertex = 255;
 
 void number_all(ExodusPlan::Sets& sets) {
   std::vector<ElementSet> all;
@@ -27,9 +24,9 @@ std::int32_t side_number(const ElementList& list, std::size_t volume,
                          std::span<const std::uint32_t> face) {
   const auto sides = exodus_sides(list.kind);
   const auto vertices = list.vertices(volume);
-  const auto found = std::find_if(sides.begin(), sides.end(), [&](const ExodusSide& side) {
+  const auto found = std::find_if(sides.begin(), sides.end(), [&](const FaceCorners& side) {
     return std::all_of(side.begin(), side.end(), [&](std::uint8_t corner) {
-      return corner == kNoVertex ||
+      return corner == kNoCorner ||
              std::find(face.begin(), face.end(), vertices[corner]) != face.end();
     });
   });
@@ -49,15 +46,22 @@ std::vector<std::string> exodus_pieces(const MeshData* mesh, std::string_view wh
   return found;
 }
 
-std::string fit_exodus_name(std::string name) {
-  if (is_exodus_name(name)) return name;
-  constexpr std::size_t kEnding = 4;  // which keeps names apart
-  for (char& c : name) {
-    if (static_cast<unsigned char>(c) < ' ') c = '_';
+/// Of arrays of one list that are called the same, each is one of its own.
+ExodusVariables::Key ExodusVariables::key(const std::vector<DataArray>& arrays, std::size_t a) {
+  const DataArray& array = arrays[a];
+  const auto end = arrays.begin() + static_cast<std::ptrdiff_t>(a);
+  return {array.name, array.components,
+          std::count_if(arrays.begin(), end, [&](const DataArray& before) {
+            return before.name == array.name && before.components == array.components;
+          })};
+}
+
+void ExodusVariables::add(const std::vector<DataArray>& arrays) {
+  for (std::size_t a = 0; a < arrays.size(); ++a) {
+    if (!first_.try_emplace(key(arrays, a), names_.size()).second) continue;
+    for (std::string& name : component_names(arrays[a], kExodusAxes, taken_))
+      names_.push_back(std::move(name));
   }
-  if (name.size() > kExodusName) name.resize(kExodusName - kEnding);
-  name.resize(name.find_last_not_of(' ') + 1);
-  return name;
 }
 
 ExodusPlan::ExodusPlan(const MeshView& mesh, const ElementLists& lists)
@@ -120,13 +124,13 @@ ExodusPlan::Block* ExodusPlan::block_of_group(const Members& elements) {
 }
 
 void ExodusPlan::collect_sets() {
-  UniqueNames changed;
+  UniqueNames changed(kExodusNames);
   std::vector<std::vector<bool>> is_named(lists_.all().size());
   for (std::size_t k = 0; k < is_named.size(); ++k) is_named[k].resize(lists_.all()[k].count);
   for (std::size_t g = 0; g < members_.size(); ++g) {
     if (group(g).name.empty() && group(g).dimension > 0) continue;  // it is a label
-    std::string name = fit_exodus_name(group(g).name);
-    if (name != group(g).name) name = changed.make(name);
+    std::string name = group(g).name;
+    if (!name.empty() && !is_exodus_name(name)) name = changed.make_fit(name);
     ElementSet set{group(g).number, std::move(name), members_[g].points, {}};
     if (group(g).dimension == 0) {
       if (members_[g].points.empty()) continue;  // classic netCDF has no dimension of length 0

@@ -7,18 +7,40 @@
 #include <map>
 #include <string>
 #include <string_view>
+#include <tuple>
 #include <utility>
 #include <vector>
 
 #include "kernel/formats/element_rows.h"
 #include "kernel/formats/element_sets.h"
+#include "kernel/formats/exodus.h"
+#include "kernel/formats/unique_names.h"
 #include "kernel/mesh_view.h"
 
 namespace tetmend::formats {
 
 /// What stands behind "WHAT\0" in the deck of a mesh, which may be null.
 std::vector<std::string> exodus_pieces(const MeshData* mesh, std::string_view what);
-std::string fit_exodus_name(std::string name);
+
+/// The variables of points, or of elements: arrays by their components, with names of their own.
+/// Arrays of several lists that have one name are one.
+class ExodusVariables {
+ public:
+  void add(const std::vector<DataArray>& arrays);
+  /// Of the first component of arrays[a], which was added.
+  std::size_t first(const std::vector<DataArray>& arrays, std::size_t a) const {
+    return first_.at(key(arrays, a));
+  }
+  const std::vector<std::string>& names() const { return names_; }
+
+ private:
+  using Key = std::tuple<std::string, std::size_t, std::ptrdiff_t>;
+  static Key key(const std::vector<DataArray>& arrays, std::size_t a);
+
+  std::map<Key, std::size_t> first_;
+  std::vector<std::string> names_;
+  UniqueNames taken_{kExodusNames};
+};
 
 /// Which elements stand where in the file. The mesh and its lists must outlive it.
 class ExodusPlan {

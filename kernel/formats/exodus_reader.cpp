@@ -21,9 +21,6 @@
 namespace tetmend::formats {
 namespace {
 
-constexpr std::uint8_t kNoCorner = 255;
-constexpr std::uint32_t kNoPlace = UINT32_MAX;
-
 class Reader {
  public:
   Reader(const InputFile& input, TetPlace* question)
@@ -143,7 +140,7 @@ class Reader {
                                           block.count, in_quotes(file_->text(path, "elem_type"))));
       }
     }
-    if (blocks_.empty() && !mesh_.points.empty())
+    if (blocks_.empty() && !mesh_.points.empty() && !file_->has("/", "api_version"))
       file_->fail("/", "the file has no elements: expected a table connect1");
     std::size_t count = 0;
     for (const ExodusBlock& block : blocks_) count += block.count;
@@ -295,31 +292,14 @@ class Reader {
         lost, elements.size(), set.number));
   }
 
-  void add_side(ElementSet& set, ElementPlace of, const ExodusSide& side) {
+  void add_side(ElementSet& set, ElementPlace of, const FaceCorners& side) {
     ElementRow row;
     row.kind = element_kind(side[3] == kNoCorner ? vtk_triangle : vtk_quad);
-    const auto vertices = vertices_of(of);
+    const auto vertices = vertices_at(mesh_, of);
     for (std::size_t k = 0; k < row.kind->width; ++k) row.vertices[k] = vertices[side[k]];
     const std::size_t before = places_.size();
     set.elements.push_back(faces_.add(row, sorter_, mesh_, places_));
     if (places_.size() > before) homes_.push_back(static_cast<std::uint32_t>(blocks_.size()));
-  }
-
-  std::span<const std::uint32_t> vertices_of(ElementPlace place) const {
-    switch (place.of().vtk_type) {
-      case vtk_tet:
-        return mesh_.tets[place.index].vertices;
-      case vtk_triangle:
-        return mesh_.triangles[place.index].vertices;
-      default:
-        break;
-    }
-    for (const OtherElements& others : mesh_.other_elements) {
-      if (others.vtk_type != place.of().vtk_type) continue;
-      return std::span(others.vertices)
-          .subspan(place.index * others.vertex_count, others.vertex_count);
-    }
-    return mesh_.edges[place.index].vertices;
   }
 
   /// Blocks of one dimension and sets of its elements share numbers.

@@ -9,20 +9,20 @@
 namespace tetmend::formats {
 namespace {
 
-constexpr std::uint8_t kNoCorner = 255;
-constexpr std::array<ExodusSide, 4> kTetSides = {
+constexpr std::array<FaceCorners, 4> kTetSides = {
     {{0, 1, 3, kNoCorner}, {1, 2, 3, kNoCorner}, {0, 3, 2, kNoCorner}, {0, 2, 1, kNoCorner}}};
-constexpr std::array<ExodusSide, 6> kHexahedronSides = {
+constexpr std::array<FaceCorners, 6> kHexahedronSides = {
     {{0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {0, 4, 7, 3}, {0, 3, 2, 1}, {4, 5, 6, 7}}};
-constexpr std::array<ExodusSide, 5> kPrismSides = {
+constexpr std::array<FaceCorners, 5> kPrismSides = {
     {{0, 1, 4, 3}, {1, 2, 5, 4}, {0, 3, 5, 2}, {0, 2, 1, kNoCorner}, {3, 4, 5, kNoCorner}}};
-constexpr std::array<ExodusSide, 5> kPyramidSides = {{{0, 1, 4, kNoCorner},
-                                                      {1, 2, 4, kNoCorner},
-                                                      {2, 3, 4, kNoCorner},
-                                                      {0, 4, 3, kNoCorner},
-                                                      {0, 3, 2, 1}}};
-constexpr std::array<ExodusSide, 2> kTriangleSides = {{{0, 1, 2, kNoCorner}, {0, 2, 1, kNoCorner}}};
-constexpr std::array<ExodusSide, 2> kQuadSides = {{{0, 1, 2, 3}, {0, 3, 2, 1}}};
+constexpr std::array<FaceCorners, 5> kPyramidSides = {{{0, 1, 4, kNoCorner},
+                                                       {1, 2, 4, kNoCorner},
+                                                       {2, 3, 4, kNoCorner},
+                                                       {0, 4, 3, kNoCorner},
+                                                       {0, 3, 2, 1}}};
+constexpr std::array<FaceCorners, 2> kTriangleSides = {
+    {{0, 1, 2, kNoCorner}, {0, 2, 1, kNoCorner}}};
+constexpr std::array<FaceCorners, 2> kQuadSides = {{{0, 1, 2, 3}, {0, 3, 2, 1}}};
 
 /// In upper case, without what follows the letters.
 std::string letters_of(std::string_view name) {
@@ -51,7 +51,7 @@ bool is_exodus_volume(std::string_view name) {
   return false;
 }
 
-std::span<const ExodusSide> exodus_sides(const ElementKind& kind) {
+std::span<const FaceCorners> exodus_sides(const ElementKind& kind) {
   if (kind.dimension == 2) {
     if (kind.corners == 3) return kTriangleSides;
     return kQuadSides;
@@ -70,9 +70,7 @@ std::span<const ExodusSide> exodus_sides(const ElementKind& kind) {
 }
 
 bool is_exodus_name(std::string_view name) {
-  return !name.empty() && name.size() <= kExodusName && name.back() != ' ' &&
-         std::none_of(name.begin(), name.end(),
-                      [](char c) { return static_cast<unsigned char>(c) < ' '; });
+  return fits(name, kExodusNames);
 }
 
 std::size_t exodus_pieces_to_miss(const MeshData& mesh) {

@@ -34,6 +34,7 @@ class VariableReader {
       const std::string path = find(fmt::format("vals_nod_var{}", k + 1));
       DataArray array{names[k], 1, {}};
       const std::size_t count = mesh_.points.size();
+      if (has_no_step_) continue;
       if (!path.empty()) {
         array.values = first_step(path, count, 0);
       } else if (const std::string all = find("vals_nod_var"); !all.empty()) {
@@ -64,7 +65,8 @@ class VariableReader {
     if (!file_.has(path)) return {};
     const auto extents = file_.extents(path);
     if (std::find(extents.begin(), extents.end(), 0) == extents.end()) return path;
-    mesh_.notes.push_back(fmt::format("{} has no step: not kept", in_quotes(path)));
+    if (path.starts_with("vals_") && !std::exchange(has_no_step_, true))
+      mesh_.notes.emplace_back("the variables are not kept: they have no step");
     return {};
   }
   void note(const std::string& name, std::string_view of) {
@@ -73,7 +75,8 @@ class VariableReader {
   }
 
   DataArray::Values first_step(const std::string& path, std::size_t count, std::size_t first) {
-    DataArray::Values values = file_.values(path);
+    const bool has_steps = file_.extents(path).size() > 1;
+    DataArray::Values values = has_steps ? file_.row(path, 0) : file_.values(path);
     std::visit(
         [&](auto& numbers) {
           if (numbers.size() < first + count) {
@@ -105,7 +108,7 @@ class VariableReader {
                  values);
     }
     std::vector<DataArray>* to = data_of(mesh_, kind);
-    if (!is_somewhere) return;
+    if (!is_somewhere || has_no_step_) return;
     if (kind.dimension == 2 || !is_everywhere || to == nullptr) return note(name, kind.name);
     to->push_back({name, 1, std::move(all)});
   }
@@ -113,6 +116,7 @@ class VariableReader {
   const Hdf5Reader& file_;
   MeshData& mesh_;
   std::set<std::string>& known_;
+  bool has_no_step_ = false;
 };
 
 std::string joined(const std::vector<std::string>& lines) {
@@ -165,6 +169,7 @@ void note_exodus_rest(const Hdf5Reader& file, MeshData& mesh, std::set<std::stri
   std::set<std::string> rest;
   for (std::string name : file.names("/")) {
     if (known.contains(name) || says_nothing(name)) continue;
+    if (file.text(name, "NAME").starts_with("This is a netCDF dimension")) continue;
     name.resize(name.find_last_not_of("0123456789") + 1);
     if (rest.insert(name).second) {
       mesh.notes.push_back(fmt::format("the tables {} are not kept", in_quotes(name)));

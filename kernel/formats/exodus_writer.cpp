@@ -33,6 +33,7 @@ class Writer {
       : out_(file), mesh_(mesh), lists_(mesh), plan_(mesh, lists_) {}
 
   void write() {
+    collect_variables();
     begin();
     write_points();
     write_blocks();
@@ -55,13 +56,14 @@ class Writer {
     for (const char* name : {"api_version", "version"}) file_.attribute(name, one(8.11));
     for (const auto& [name, value] :
          {std::pair("floating_point_word_size", 8), std::pair("file_size", 1),
-          std::pair("maximum_name_length", 32), std::pair("int64_status", 0)})
+          std::pair("maximum_name_length", static_cast<int>(longest_name())),
+          std::pair("int64_status", 0)})
       file_.attribute(name, one(value));
     const std::vector<std::string> titles = exodus_pieces(mesh_.data(), "title");
     file_.attribute("title", titles.empty() ? std::string("mesh") : titles[0]);
     file_.dimension("time_step", 0);
     file_.dimension("len_string", 33);
-    file_.dimension("len_name", 33);
+    file_.dimension("len_name", longest_name() + 1);
     file_.dimension("len_line", 81);
     file_.dimension("four", 4);
     file_.dimension("num_dim", 3);
@@ -73,16 +75,22 @@ class Writer {
     counted("num_elem_sets", plan_.element_sets.size());
     const std::vector<std::string> times = exodus_pieces(mesh_.data(), "time");
     const double time = times.empty() ? 0 : std::strtod(times[0].c_str(), nullptr);
-    if (!times.empty() || has_variables()) {
+    if (!times.empty() || !of_points_.names().empty() || !of_elements_.names().empty()) {
       file_.add("time_whole", {"time_step"}, std::vector<double>{time});
     }
   }
-  bool has_variables() const {
-    if (mesh_.data() != nullptr && !mesh_.data()->point_data.empty()) return true;
-    return std::any_of(plan_.blocks.begin(), plan_.blocks.end(),
-                       [](const ExodusPlan::Block& block) {
-                         return has_variables(*block.list) && !block.list->data->empty();
-                       });
+  /// At least as many bytes as all programs have room for.
+  std::size_t longest_name() const {
+    std::size_t longest = kShortExodusName;
+    const auto look = [&](const std::string& name) { longest = std::max(longest, name.size()); };
+    for (const auto& block : plan_.blocks) look(block.set.name);
+    for (const auto& set : plan_.node_sets) look(set.name);
+    for (const auto* sets : {&plan_.side_sets, &plan_.element_sets}) {
+      for (const auto& [set, members] : *sets) look(set.name);
+    }
+    for (const auto* variables : {&of_points_, &of_elements_})
+      std::for_each(variables->names().begin(), variables->names().end(), look);
+    return longest;
   }
   void counted(const std::string& name, std::size_t count) {
     if (count > 0) file_.dimension(name, count);
@@ -208,77 +216,70 @@ class Writer {
 
   // ---- Variables ----------------------------------------------------------------------------------
 
-  static std::vector<std::string> variable_names(const DataArray& array) {
-    return component_names(array, kExodusAxes);
-  }
-  static std::vector<double> component(const DataArray& array, std::size_t c) {
-    return std::visit(
-        [](const auto& values) { return std::vector<double>(values.begin(), values.end()); },
-        component_values(array, c));
-  }
-
-  void write_variables() {
+  void collect_variables() {
     if (mesh_.data() == nullptr) return;
-    std::vector<std::string> names;
-    std::vector<std::vector<double>> values;
-    for (const DataArray& array : mesh_.data()->point_data) {
-      const std::vector<std::string> of_array = variable_names(array);
-      for (std::size_t c = 0; c < of_array.size(); ++c) {
-        names.push_back(of_array[c]);
-        values.push_back(component(array, c));
-      }
+    of_points_.add(mesh_.data()->point_data);
+    for (const ExodusPlan::Block& block : plan_.blocks) {
+      if (has_variables(*block.list)) of_elements_.add(*block.list->data);
     }
-    write_names("num_nod_var", "name_nod_var", names);
-    for (std::size_t k = 0; k < names.size(); ++k) {
-      file_.add(fmt::format("vals_nod_var{}", k + 1), {"time_step", "num_nodes"},
-                std::move(values[k]));
-    }
-    write_of_elements();
   }
-
-  void write_names(const std::string& count, const std::string& table,
-                   const std::vector<std::string>& names) {
-    if (names.empty()) return;
-    file_.dimension(count, names.size());
-    std::vector<std::string> fit;
-    for (const std::string& name : names) fit.push_back(fit_exodus_name(name));
-    file_.add_texts(table, {count, "len_name"}, fit);
-  }
-
   static bool has_variables(const ElementList& list) {
     return list.kind.dimension != 2 && list.data != nullptr;
   }
 
-  void write_of_elements() {
-    std::vector<std::string> names;
-    std::map<std::string, std::size_t> number_of;
-    for (const ExodusPlan::Block& block : plan_.blocks) {
-      if (!has_variables(*block.list)) continue;
-      for (const DataArray& array : *block.list->data) {
-        for (const std::string& name : variable_names(array)) {
-          if (number_of.try_emplace(name, names.size()).second) names.push_back(name);
+  void write_variables() {
+    if (!of_points_.names().empty()) {
+      write_names("num_nod_var", "name_nod_var", of_points_.names());
+      std::size_t written = 0;
+      for (const DataArray& array : mesh_.data()->point_data) {
+        for (std::size_t c = 0; c < array.components; ++c) {
+          file_.add(fmt::format("vals_nod_var{}", ++written), {"time_step", "num_nodes"},
+                    as_reals(component_values(array, c)));
         }
       }
     }
-    if (names.empty()) return;
-    write_names("num_elem_var", "name_elem_var", names);
-    std::vector<std::int32_t> there(plan_.blocks.size() * names.size(), 0);
+    if (of_elements_.names().empty()) return;
+    write_names("num_elem_var", "name_elem_var", of_elements_.names());
+    std::vector<std::int32_t> there(plan_.blocks.size() * of_elements_.names().size(), 0);
     for (std::size_t b = 0; b < plan_.blocks.size(); ++b) {
-      if (!has_variables(*plan_.blocks[b].list)) continue;
-      for (const DataArray& array : *plan_.blocks[b].list->data) {
-        const std::vector<std::string> of_array = variable_names(array);
-        for (std::size_t c = 0; c < of_array.size(); ++c) {
-          const std::size_t k = number_of.at(of_array[c]);
-          if (std::exchange(there[b * names.size() + k], 1) == 1) continue;
-          const std::vector<double> all = component(array, c);
-          std::vector<double> values;
-          for (const std::uint32_t i : plan_.blocks[b].elements) values.push_back(all[i]);
-          file_.add(fmt::format("vals_elem_var{}eb{}", k + 1, b + 1),
-                    {"time_step", fmt::format("num_el_in_blk{}", b + 1)}, std::move(values));
-        }
-      }
+      if (has_variables(*plan_.blocks[b].list)) write_variables_of_block(b, there);
     }
     file_.add("elem_var_tab", {"num_el_blk", "num_elem_var"}, std::move(there));
+  }
+
+  void write_names(const std::string& count, const std::string& table,
+                   const std::vector<std::string>& names) {
+    file_.dimension(count, names.size());
+    file_.add_texts(table, {count, "len_name"}, names);
+  }
+
+  void write_variables_of_block(std::size_t b, std::vector<std::int32_t>& there) {
+    const std::vector<DataArray>& arrays = *plan_.blocks[b].list->data;
+    for (std::size_t a = 0; a < arrays.size(); ++a) {
+      for (std::size_t c = 0; c < arrays[a].components; ++c) {
+        const std::size_t k = of_elements_.first(arrays, a) + c;
+        there[b * of_elements_.names().size() + k] = 1;
+        file_.add(fmt::format("vals_elem_var{}eb{}", k + 1, b + 1),
+                  {"time_step", fmt::format("num_el_in_blk{}", b + 1)},
+                  values_of(arrays[a], c, plan_.blocks[b].elements));
+      }
+    }
+  }
+  static std::vector<double> as_reals(const DataArray::Values& values) {
+    return std::visit([](const auto& all) { return std::vector<double>(all.begin(), all.end()); },
+                      values);
+  }
+  static std::vector<double> values_of(const DataArray& array, std::size_t component,
+                                       const std::vector<std::uint32_t>& elements) {
+    std::vector<double> all;
+    all.reserve(elements.size());
+    std::visit(
+        [&](const auto& values) {
+          for (const std::uint32_t i : elements)
+            all.push_back(static_cast<double>(values[i * array.components + component]));
+        },
+        array.values);
+    return all;
   }
 
   void write_records() {
@@ -307,20 +308,12 @@ class Writer {
   const MeshView& mesh_;
   ElementLists lists_;
   ExodusPlan plan_;
+  ExodusVariables of_points_, of_elements_;
 };
 
-/// What of arrays becomes something else.
-void note_arrays(const std::vector<DataArray>& arrays, std::vector<std::string>& notes) {
+/// Integers that doubles do not have.
+void note_rounded(const std::vector<DataArray>& arrays, std::vector<std::string>& notes) {
   for (const DataArray& array : arrays) {
-    const std::size_t suffix = array.components == 1 ? 0 : 2;
-    if (array.name.size() + suffix > kExodusName) {
-      notes.push_back(fmt::format("the name of the array '{}' is cut: .e has 32 characters",
-                                  printable(array.name)));
-    }
-    if (array.components != 1 && array.components != 3) {
-      notes.push_back(fmt::format("the array '{}' is not kept as one: .e has {} variables of it",
-                                  printable(array.name), array.components));
-    }
     const auto* large = std::get_if<std::vector<std::int64_t>>(&array.values);
     const auto is_rounded = [](std::int64_t value) {
       return static_cast<double>(value) > kMostWhole || static_cast<double>(value) < -kMostWhole;
@@ -336,19 +329,19 @@ void note_arrays(const std::vector<DataArray>& arrays, std::vector<std::string>&
 
 std::vector<std::string> not_in_exodus(const std::filesystem::path&, const MeshData& mesh) {
   std::vector<std::string> notes;
-  note_arrays(mesh.point_data, notes);
-  note_arrays(mesh.tet_data, notes);
+  const auto look = [&](const std::vector<DataArray>& arrays) {
+    note_component_arrays(arrays, kExodusAxes, UniqueNames(kExodusNames), ".e", notes);
+    note_rounded(arrays, notes);
+  };
+  for (const auto* arrays : {&mesh.point_data, &mesh.tet_data, &mesh.edge_data}) look(*arrays);
+  for (const OtherElements& others : mesh.other_elements) {
+    const ElementKind* kind = element_kind(others.vtk_type);
+    if (kind != nullptr && kind->dimension != 2) look(others.data);
+  }
   for (const Group& group : mesh.groups) {
     if (group.dimension != 0 || !group.members.empty()) continue;
     notes.push_back(fmt::format("the group '{}' of no points is not kept: .e has no empty set",
                                 printable(group.name)));
-  }
-  for (const OtherElements& others : mesh.other_elements) {
-    const ElementKind* kind = element_kind(others.vtk_type);
-    if (kind == nullptr || kind->dimension != 2 || others.data.empty()) continue;
-    notes.push_back(
-        fmt::format("{} arrays of elements of VTK's type {} are not kept: .e has none of faces",
-                    others.data.size(), others.vtk_type));
   }
   return notes;
 }

@@ -12,20 +12,20 @@
 namespace tetmend::formats {
 namespace {
 
-constexpr std::uint8_t kNone = 255;
-using Face = std::array<std::uint8_t, 4>;
-
-/// Faces with their normals outwards; of a triangle the last corner is kNone.
-constexpr std::array<Face, 4> kTetFaces = {
-    {{0, 2, 1, kNone}, {0, 1, 3, kNone}, {1, 2, 3, kNone}, {0, 3, 2, kNone}}};
-constexpr std::array<Face, 6> kHexahedronFaces = {
+/// Faces with their normals outwards.
+constexpr std::array<FaceCorners, 4> kTetFaces = {
+    {{0, 2, 1, kNoCorner}, {0, 1, 3, kNoCorner}, {1, 2, 3, kNoCorner}, {0, 3, 2, kNoCorner}}};
+constexpr std::array<FaceCorners, 6> kHexahedronFaces = {
     {{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}}};
-constexpr std::array<Face, 5> kPrismFaces = {
-    {{0, 2, 1, kNone}, {3, 4, 5, kNone}, {0, 1, 4, 3}, {1, 2, 5, 4}, {2, 0, 3, 5}}};
-constexpr std::array<Face, 5> kPyramidFaces = {
-    {{0, 3, 2, 1}, {0, 1, 4, kNone}, {1, 2, 4, kNone}, {2, 3, 4, kNone}, {3, 0, 4, kNone}}};
+constexpr std::array<FaceCorners, 5> kPrismFaces = {
+    {{0, 2, 1, kNoCorner}, {3, 4, 5, kNoCorner}, {0, 1, 4, 3}, {1, 2, 5, 4}, {2, 0, 3, 5}}};
+constexpr std::array<FaceCorners, 5> kPyramidFaces = {{{0, 3, 2, 1},
+                                                       {0, 1, 4, kNoCorner},
+                                                       {1, 2, 4, kNoCorner},
+                                                       {2, 3, 4, kNoCorner},
+                                                       {3, 0, 4, kNoCorner}}};
 
-std::span<const Face> faces_of(const ElementKind& kind) {
+std::span<const FaceCorners> faces_of(const ElementKind& kind) {
   switch (kind.corners) {
     case 4:
       return kTetFaces;
@@ -110,10 +110,10 @@ class Finder {
 
   void look_around(const ElementList& list, std::size_t i, std::uint32_t number) {
     const auto v = list.vertices(i);
-    for (const Face& face : faces_of(list.kind)) {
+    for (const FaceCorners& face : faces_of(list.kind)) {
       Key corners{};
       for (std::size_t k = 0; k < 4; ++k) {
-        corners[k] = face[k] == kNone ? kNoElement : v[face[k]];
+        corners[k] = face[k] == kNoCorner ? kNoElement : v[face[k]];
       }
       const auto found = places_.find(key_of(corners));
       if (found == places_.end()) continue;

@@ -22,6 +22,7 @@ enum FebioPiece : char {
   febio_text = 'T',       ///< word for word
   febio_nodes = 'N',      ///< the nodes of a block: the number of its group, 0 for the first block
   febio_elements = 'E',   ///< the tets of a block: its label
+  febio_materials = 'M',  ///< tets of a block that names their materials: 0, then these labels
   febio_list = 'L',       ///< a set of elements with tets, as a list: the number of its group
   febio_tags = 'G',       ///< likewise, with an element of XML for each; then the name of that
   febio_node_list = 'l',  ///< the same for sets of nodes
@@ -56,7 +57,8 @@ inline bool febio_holds(int vtk_type) {
   return false;
 }
 
-/// Labels of tets count the blocks of elements. Points that the rest of the model names become
+/// Labels of tets count the blocks of elements, or are their materials where a block has several, as
+/// in version 1.2. Points that the rest of the model names become
 /// required vertices; facets of surfaces are triangles, and stay in the model. @throws Error
 MeshData read_febio(const std::filesystem::path& file, TetPlace* question = nullptr);
 

@@ -111,6 +111,9 @@ class FebioWriter {
       case febio_elements:  // the first of two blocks of one label has the elements of both
         if (labels_written_.insert(number).second) write_elements(number);
         break;
+      case febio_materials:
+        write_materials(piece.substr(std::min(piece.find(' '), piece.size())));
+        break;
       case febio_list:
       case febio_tags:
       case febio_node_list:
@@ -156,6 +159,32 @@ class FebioWriter {
       put_vertices(buffer, lists_.all()[k].vertices(i));
       buffer.put(std::string_view("</elem>\n"));
     });
+    out_.put("\t\t");
+  }
+
+  /// Tets that say their type and material, which is their label, by themselves.
+  void write_materials(std::string_view text) {
+    std::set<Label> labels;
+    const char* const end = text.data() + text.size();
+    for (const char* at = text.data(); at != end;) {
+      Label label = 0;
+      const auto [next, error] = std::from_chars(at + 1, end, label);
+      if (error == std::errc() && labels_written_.insert(label).second) labels.insert(label);
+      at = next;
+    }
+    out_.put('\n');
+    for (std::size_t k = 0; k < lists_.all().size(); ++k) {
+      const ElementList& list = lists_.all()[k];
+      if (list.kind.vtk_type != vtk_tet && list.kind.vtk_type != vtk_tet10) continue;
+      put_rows(out_, list.count, [&](std::size_t i, OutputBuffer& buffer) {
+        if (!labels.contains(list.label(i))) return;
+        const std::string_view type = febio_type(list.kind.vtk_type);
+        buffer.put(
+            fmt::format("\t\t\t<{} id=\"{}\" mat=\"{}\">", type, elements_[k][i], list.label(i)));
+        put_vertices(buffer, list.vertices(i));
+        buffer.put(fmt::format("</{}>\n", type));
+      });
+    }
     out_.put("\t\t");
   }
 

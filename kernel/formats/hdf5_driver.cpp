@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Which HDF5 a program has, if any.
+#include <string_view>
+
 #include <fmt/format.h>
 
 #include "kernel/error.h"
@@ -16,6 +18,16 @@ const Hdf5Driver& driver_for(const std::string& name, std::string_view format) {
 }
 
 }  // namespace
+
+std::vector<std::string> text_rows(std::string_view characters, std::size_t width) {
+  std::vector<std::string> rows;
+  for (std::size_t at = 0; width > 0 && at < characters.size(); at += width) {
+    std::string_view row = characters.substr(at, width);
+    row = row.substr(0, row.find('\0'));
+    rows.emplace_back(row.substr(0, row.find_last_not_of(' ') + 1));
+  }
+  return rows;
+}
 
 void provide_hdf5(const Hdf5Driver& of_program) {
   driver = &of_program;

@@ -20,6 +20,9 @@ namespace tetmend::formats {
 /// links the library may have another one, as PETSc does.
 bool has_hdf5();
 
+/// Rows of `width` characters, each up to the first that is zero, without blanks at the end.
+std::vector<std::string> text_rows(std::string_view characters, std::size_t width);
+
 /// What is asked for must be there, unless it says otherwise: all functions throw Error
 /// "FILE: /PATH: reason". Links to other files are as if they were not there, and tables that claim more
 /// than the file can hold are refused before memory is taken. One such file is open at a time: other
@@ -36,10 +39,11 @@ class Hdf5Reader {
   /// All numbers of a table, row by row, in the type that holds them; integers that no type of ours
   /// holds are doubles.
   virtual DataArray::Values values(const std::string& table) const = 0;
+  /// Those of one value of the first index. The others are not read. Precondition: it has this row.
+  virtual DataArray::Values row(const std::string& table, std::uint64_t number) const = 0;
   virtual std::vector<std::int64_t> integers(const std::string& table) const = 0;
   virtual std::vector<double> reals(const std::string& table) const = 0;
-  /// Rows of characters, up to the first that is zero, without blanks at the end. A list of numbers of one
-  /// byte is one row.
+  /// See text_rows(). A list of numbers of one byte is one row.
   virtual std::vector<std::string> texts(const std::string& table) const = 0;
 
   virtual bool has(const std::string& path, const char* attribute) const = 0;
@@ -80,8 +84,8 @@ class Hdf5Writer {
 /// @throws Error where this program has no HDF5
 std::unique_ptr<Hdf5Writer> make_hdf5(std::string name, std::string_view format);
 
-/// The HDF5 of a program: hdf5_file.cpp, where a program is linked with it, provides its own when the
-/// program starts.
+/// The HDF5 of a program: hdf5_writer.cpp, where a program is linked with it, provides its own when
+/// the program starts.
 struct Hdf5Driver {
   std::unique_ptr<Hdf5Reader> (*open)(const InputFile& file, std::string_view format);
   std::unique_ptr<Hdf5Writer> (*make)(std::string name);

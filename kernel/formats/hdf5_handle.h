@@ -1,11 +1,17 @@
 // SPDX-License-Identifier: MIT
-// Objects of HDF5 that close themselves, and the types of numbers that memory has.
+// Objects of HDF5 that close themselves, the types of numbers that memory has, whose turn it is.
 #pragma once
 
 #include <cstdint>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <string_view>
 #include <utility>
 
 #include <hdf5.h>
+
+#include "kernel/formats/hdf5_file.h"
 
 namespace tetmend::formats {
 
@@ -47,5 +53,33 @@ template <>
 inline hid_t hdf5_type<double>() {
   return H5T_NATIVE_DOUBLE;
 }
+
+/// HDF5 as Debian builds it is for one thread at a time; and what goes wrong is told by us.
+class Hdf5Turn {
+ public:
+  Hdf5Turn() : lock_(mutex()) {
+    H5Eget_auto2(H5E_DEFAULT, &print_, &to_);
+    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+  }
+  ~Hdf5Turn() { H5Eset_auto2(H5E_DEFAULT, print_, to_); }
+  Hdf5Turn(const Hdf5Turn&) = delete;
+  Hdf5Turn& operator=(const Hdf5Turn&) = delete;
+
+ private:
+  static std::mutex& mutex() {
+    static std::mutex only;
+    return only;
+  }
+
+  std::lock_guard<std::mutex> lock_;
+  H5E_auto2_t print_ = nullptr;
+  void* to_ = nullptr;
+};
+
+/// A name that no file can have, for HDF5 wants to know that there is none.
+inline constexpr const char* kInMemory = "/dev/null/hdf5";
+
+/// See open_hdf5().
+std::unique_ptr<Hdf5Reader> open_in_memory(const InputFile& file, std::string_view format);
 
 }  // namespace tetmend::formats

@@ -31,11 +31,19 @@ enum LsDynaPiece : char {
   lsdyna_point = 'P'  ///< a node that says more than its place: its number, its line; at the end
 };
 
-/// Characters of a field of *NODE and *ELEMENT.
+/// Characters of a field.
 struct LsDynaWidths {
-  std::size_t integer = 8;
-  std::size_t real = 16;
+  std::size_t integer = 8;  ///< of *NODE and *ELEMENT
+  std::size_t real = 16;    ///< likewise
+  std::size_t card = 10;    ///< of other keywords
+
+  friend bool operator==(const LsDynaWidths&, const LsDynaWidths&) = default;
 };
+inline constexpr LsDynaWidths kLsDynaI10 = {10, 16, 10};
+inline constexpr LsDynaWidths kLsDynaLong = {20, 20, 20};
+
+/// Those of a keyword whose line says so at its end, by "+", "-" or "%"; else those of the deck.
+LsDynaWidths lsdyna_widths(std::string_view line, const LsDynaWidths& of_deck);
 
 /// Which kinds of elements it has.
 inline bool lsdyna_holds(int vtk_type) {

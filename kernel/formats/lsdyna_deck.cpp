@@ -55,6 +55,22 @@ bool names_no_nodes(std::string_view keyword) {
                                    "LOAD_GRAVITY"});
 }
 
+LsDynaWidths lsdyna_widths(std::string_view line, const LsDynaWidths& of_deck) {
+  line = line.substr(0, line.find_last_not_of(" \t\r\n") + 1);
+  const bool is_apart =
+      line.size() > 1 && (line[line.size() - 2] == ' ' || line[line.size() - 2] == '\t');
+  switch (is_apart ? line.back() : '\0') {
+    case '+':
+      return kLsDynaLong;
+    case '-':
+      return {};
+    case '%':
+      return kLsDynaI10;
+    default:
+      return of_deck;
+  }
+}
+
 void LsDynaDeck::fail(std::string_view where, std::string_view reason) const {
   file_.fail_at_line(where.data(), reason);
 }
@@ -84,12 +100,8 @@ void LsDynaDeck::find_blocks() {
     std::string keyword(trimmed_field(line.substr(1)));
     for (char& c : keyword) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
     if (keyword.starts_with("KEYWORD")) read_options(keyword);
-    const std::size_t blank = keyword.find_first_of(" \t");
-    const std::string_view rest =
-        blank == std::string::npos ? "" : trimmed_field(std::string_view(keyword).substr(blank));
-    if (rest == "+" || rest == "%")
-      fail(line, "long fields of one keyword cannot be read: expected LONG=Y in *KEYWORD");
-    block = {keyword.substr(0, blank), begin, at, at};
+    block = {keyword.substr(0, keyword.find_first_of(" \t")), begin, at, at,
+             lsdyna_widths(keyword, widths_)};
   }
   block.end = file_.end();
   blocks_.push_back(block);
@@ -99,8 +111,8 @@ void LsDynaDeck::find_blocks() {
 }
 
 void LsDynaDeck::read_options(std::string_view line) {
-  if (line.find("LONG=Y") != std::string_view::npos) widths_ = {20, 20};
-  if (line.find("I10=Y") != std::string_view::npos) widths_ = {10, 16};
+  if (line.find("LONG=Y") != std::string_view::npos) widths_ = kLsDynaLong;
+  if (line.find("I10=Y") != std::string_view::npos) widths_ = kLsDynaI10;
 }
 
 void LsDynaDeck::split(std::string_view line, std::size_t first, std::size_t width,
@@ -117,7 +129,7 @@ void LsDynaDeck::split(std::string_view line, std::size_t first, std::size_t wid
   }
   bool is_by_words = line.find('\t') != std::string_view::npos;
   for (std::size_t at = 0, k = 0; at < line.size() && !is_by_words; ++k) {
-    const std::size_t size = k == 0 ? first : k <= reals ? widths_.real : width;
+    const std::size_t size = k == 0 ? first : k <= reals ? now_.real : width;
     fields_.push_back(trimmed_field(line.substr(at, size)));
     is_by_words = fields_.back().find(' ') != std::string_view::npos;
     at += size;

@@ -25,6 +25,7 @@ struct LsDynaBlock {
   const char* begin;
   const char* content;  ///< behind the line of the keyword
   const char* end;
+  LsDynaWidths widths = {};
 };
 
 /// What readers of such a file begin with.
@@ -44,6 +45,9 @@ class LsDynaDeck {
   /// Between commas; of fixed width; between blanks, where a field would hold two words.
   void split(std::string_view line, std::size_t first, std::size_t width, std::size_t reals = 0);
   std::string_view field(std::size_t i) const { return i < fields_.size() ? fields_[i] : ""; }
+  /// Lines are split from now on as those of a block.
+  void use(const LsDynaBlock& block) { now_ = block.widths; }
+  const LsDynaWidths& now() const { return now_; }
   std::int64_t integer(std::size_t i, std::string_view line, std::string_view what,
                        std::int64_t low) const;
 
@@ -55,6 +59,8 @@ class LsDynaDeck {
  private:
   void find_blocks();
   void read_options(std::string_view line);
+
+  LsDynaWidths now_;
 };
 
 }  // namespace tetmend::formats

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
-#include <cmath>
 #include <map>
 #include <set>
 #include <string>
@@ -17,6 +16,7 @@
 #include "kernel/formats/element_sets.h"
 #include "kernel/formats/label_names.h"
 #include "kernel/formats/lsdyna.h"
+#include "kernel/formats/lsdyna_fields.h"
 #include "kernel/formats/nastran_card.h"
 #include "kernel/formats/output_rows.h"
 
@@ -24,44 +24,8 @@ namespace tetmend::formats {
 namespace {
 
 constexpr std::size_t kFieldsOfCard = 8;  // of sets
-constexpr std::size_t kCardWidth = 10;    // of such a field
-constexpr std::string_view kSpaces = "                    ";
 
 constexpr std::array<std::int64_t, 3> kNumberLimits = {99'999'999, INT32_MAX, INT64_MAX};
-
-/// In at most `room` characters, with all digits if they have room. "0.5" may be ".5".
-std::string real_in_room(double value, std::size_t room) {
-  std::string text = fmt::format("{}", value);
-  if (text.size() <= room) return text;
-  const std::size_t zero = text.find("0.");
-  if (zero == 0 || (zero == 1 && text[0] == '-')) {
-    std::string bare = text;
-    bare.erase(zero, 1);
-    if (bare.size() <= room && bare.find('e') == std::string::npos) return bare;
-  }
-  std::array<char, 40> memory{};
-  const auto [end, error] = std::to_chars(memory.data(), memory.data() + memory.size(), value,
-                                          std::chars_format::scientific);
-  text.assign(memory.data(), end);
-  const std::size_t e = text.find('e');
-  // "e-05" is "e-5", "e+10" is "e10".
-  const int exponent = std::stoi(text.substr(e + 1));
-  text = fmt::format("{}e{}", text.substr(0, e), exponent);
-  for (int digits = 17; text.size() > room && digits > 0; --digits) {
-    text = fmt::format("{:.{}g}", value, digits);
-  }
-  // The largest numbers may be rounded out of the range of a double.
-  double again = 0;
-  if (std::isfinite(value) && (!nastran_real(text, again) || !std::isfinite(again))) {
-    return real_in_room(value * (1 - 1e-8), room);
-  }
-  return text;
-}
-
-bool loses_digits(double value, std::size_t room) {
-  double again = 0;
-  return !nastran_real(real_in_room(value, room), again) || again != value;
-}
 
 const std::uint8_t* order_of_solid(int vtk_type) {
   switch (vtk_type) {
@@ -104,6 +68,7 @@ class LsDynaWriter {
     const char* end = widths.data() + widths.size();
     const char* next = std::from_chars(widths.data(), end, widths_.integer).ptr;
     if (next != end) std::from_chars(next + 1, end, widths_.real);
+    if (widths_.real == kLsDynaLong.real) widths_ = kLsDynaLong;
     for (std::size_t g = 0; g < members_.size(); ++g) {
       const Group& group = data->groups[g];
       group_of_.try_emplace({group.dimension, group.number}, g);
@@ -155,31 +120,6 @@ class LsDynaWriter {
     }
   }
 
-  /// Fields of one line: of fixed width, or with commas, where a number is wider than its field.
-  struct Line {
-    OutputBuffer& buffer;
-    bool is_free = false;
-    bool is_first = true;
-
-    void put(std::string_view text, std::size_t width) {
-      if (is_free) {
-        if (!is_first) buffer.put(',');
-      } else if (text.size() < width) {
-        buffer.put(kSpaces.substr(0, width - text.size()));
-      }
-      buffer.put(text);
-      is_first = false;
-    }
-    void put(std::int64_t number, std::size_t width) {
-      const fmt::format_int text(number);
-      put(std::string_view(text.data(), text.size()), width);
-    }
-    void end() {
-      buffer.put('\n');
-      is_first = true;
-    }
-  };
-
   /// Do all numbers of the mesh fit?
   bool fits(std::size_t width) const { return fmt::format_int(most_).size() <= width; }
 
@@ -189,10 +129,10 @@ class LsDynaWriter {
     put_rows(out_, mesh_.point_count(), [this](std::size_t i, OutputBuffer& buffer) {
       const auto whole = points_of_deck_.find(points_[i]);
       if (whole != points_of_deck_.end()) return buffer.put(whole->second);
-      Line line{buffer, !fits(widths_.integer)};
+      LsDynaLine line{buffer, !fits(widths_.integer)};
       line.put(points_[i], widths_.integer);
       for (int axis = 0; axis < 3; ++axis) {
-        line.put(real_in_room(mesh_.point(i)[axis], widths_.real), widths_.real);
+        line.put(lsdyna_real(mesh_.point(i)[axis], widths_.real), widths_.real);
       }
       line.end();
     });
@@ -218,7 +158,7 @@ class LsDynaWriter {
 
   void put_solid(OutputBuffer& buffer, std::size_t k, std::size_t i) const {
     const ElementList& list = lists_.all()[k];
-    Line line{buffer, !fits(widths_.integer)};
+    LsDynaLine line{buffer, !fits(widths_.integer)};
     line.put(elements_[k][i], widths_.integer);
     line.put(part_of_.at(list.label(i)), widths_.integer);
     const std::uint8_t* order = order_of_solid(list.kind.vtk_type);
@@ -230,39 +170,42 @@ class LsDynaWriter {
     line.end();
   }
 
-  /// Ten characters each, eight a line.
+  /// Eight a line.
   template <class Number>
-  void put_members(std::size_t count, const Number& number) {
+  void put_members(std::size_t count, std::size_t width, const Number& number) {
     put_rows(out_, (count + kFieldsOfCard - 1) / kFieldsOfCard,
              [&](std::size_t row, OutputBuffer& buffer) {
                const std::size_t end = std::min(count, (row + 1) * kFieldsOfCard);
-               Line line{buffer, !fits(kCardWidth)};
+               LsDynaLine line{buffer, !fits(width)};
                for (std::size_t i = row * kFieldsOfCard; i < end; ++i) {
-                 line.put(number(i), kCardWidth);
+                 line.put(number(i), width);
                }
                line.end();
              });
   }
 
-  void put_solids_of(const GroupMembers& members) {
-    put_members(members.elements.size(), [&](std::size_t i) {
+  void put_solids_of(const GroupMembers& members, std::size_t width) {
+    put_members(members.elements.size(), width, [&](std::size_t i) {
       return elements_[members.elements[i].list][members.elements[i].index];
     });
   }
 
-  void put_nodes_of(const GroupMembers& members) {
-    put_members(members.points.size(), [&](std::size_t i) { return points_[members.points[i]]; });
+  void put_nodes_of(const GroupMembers& members, std::size_t width) {
+    put_members(members.points.size(), width,
+                [&](std::size_t i) { return points_[members.points[i]]; });
   }
 
   /// @param text  the number of the group, a line break, the lines before the members
   void write_set(std::string_view text, int dimension) {
     Label number = 0;
     std::from_chars(text.data(), text.data() + text.size(), number);
-    out_.put(text.substr(text.find('\n') + 1));
+    const std::string_view lines = text.substr(text.find('\n') + 1);
+    out_.put(lines);
+    const std::size_t width = lsdyna_widths(lines.substr(0, lines.find('\n')), widths_).card;
     const auto found = group_of_.find({dimension, number});
     if (found == group_of_.end()) return;
-    if (dimension == 0) put_nodes_of(members_[found->second]);
-    if (dimension == 3) put_solids_of(members_[found->second]);
+    if (dimension == 0) put_nodes_of(members_[found->second], width);
+    if (dimension == 3) put_solids_of(members_[found->second], width);
   }
 
   // ---- A mesh of another format -------------------------------------------------------------------
@@ -320,10 +263,10 @@ class LsDynaWriter {
       const std::int64_t number = ++next[static_cast<std::size_t>(group.dimension)];
       if (group.dimension == 3) {
         out_.put(fmt::format("*SET_SOLID_TITLE\n{}\n{:>10}\n", title(group.name), number));
-        put_solids_of(members_[g]);
+        put_solids_of(members_[g], widths_.card);
       } else if (group.dimension == 0) {
         out_.put(fmt::format("*SET_NODE_LIST_TITLE\n{}\n{:>10}\n", title(group.name), number));
-        put_nodes_of(members_[g]);
+        put_nodes_of(members_[g], widths_.card);
       }
     }
   }
@@ -363,9 +306,9 @@ class LsDynaWriter {
     put_rows(out_, members.size(), [&](std::size_t i, OutputBuffer& buffer) {
       const ElementList& list = lists_.all()[members[i].list];
       const auto v = list.vertices(members[i].index).first(list.kind.corners);
-      Line line{buffer, !fits(kCardWidth)};
+      LsDynaLine line{buffer, !fits(widths_.card)};
       for (std::size_t n = 0; n < 4; ++n) {
-        line.put(points_[v[std::min(n, v.size() - 1)]], kCardWidth);
+        line.put(points_[v[std::min(n, v.size() - 1)]], widths_.card);
       }
       line.end();
     });
@@ -404,7 +347,7 @@ std::vector<std::string> not_in_lsdyna(const std::filesystem::path&, const MeshD
   const std::size_t room = has_deck && mesh.deck[1].ends_with("20") ? 20 : LsDynaWidths().real;
   std::size_t rounded = 0;
   for (const Point& point : mesh.points) {
-    for (int axis = 0; axis < 3; ++axis) rounded += loses_digits(point[axis], room) ? 1 : 0;
+    for (int axis = 0; axis < 3; ++axis) rounded += lsdyna_rounds(point[axis], room) ? 1 : 0;
   }
   std::vector<std::string> notes;
   if (rounded > 0) {

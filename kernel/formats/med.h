@@ -13,6 +13,7 @@
 
 #include "kernel/formats/element_kinds.h"
 #include "kernel/formats/tet_place.h"
+#include "kernel/formats/unique_names.h"
 #include "kernel/mesh_data.h"
 #include "kernel/mesh_view.h"
 
@@ -52,10 +53,10 @@ inline bool med_holds(int vtk_type) {
   return element_kind(vtk_type) != nullptr;
 }
 
-inline constexpr std::size_t kMedGroupName = 80;
-inline constexpr std::size_t kMedName = 64;  ///< of meshes, families and fields
+inline constexpr NameRules kMedGroupNames = {.most = 80};
+inline constexpr NameRules kMedNames = {.most = 64, .slash = '!'};  ///< of meshes, families, fields
 
-/// Names of groups have 80 bytes at most.
+/// Of a group.
 bool is_med_name(std::string_view name);
 
 /// What a file says besides mesh, groups and fields: names, units, times. It travels as pieces of a deck.

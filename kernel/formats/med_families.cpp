@@ -10,6 +10,14 @@
 
 namespace tetmend::formats {
 
+MedFamilies::MedFamilies(const MeshData* data, const MedRemarks& remarks)
+    : data_(data), remarks_(remarks), is_med_(data != nullptr && data->variant == kMed) {
+  if (data == nullptr) return;
+  for (const Group& group : data->groups) {
+    if (is_med_name(group.name)) cut_names_.take(group.name);
+  }
+}
+
 std::vector<std::uint32_t> MedFamilies::chains(int dimension, std::size_t count) {
   std::vector<std::uint32_t> chain_of;
   const std::uint32_t none = chains_.begin();
@@ -83,7 +91,7 @@ std::vector<std::string> MedFamilies::groups_of(const MedFamilyKey& key) {
 std::string MedFamilies::cut(const std::string& name) {
   if (is_med_name(name)) return name;
   const auto [at, is_new] = cut_.try_emplace(name);
-  if (is_new) at->second = cut_names_.make(name.substr(0, kMedGroupName - 4));
+  if (is_new) at->second = cut_names_.make_fit(name);
   return at->second;
 }
 

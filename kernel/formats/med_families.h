@@ -30,8 +30,7 @@ struct MedFamilyKey {
 class MedFamilies {
  public:
   /// `data` may be null.
-  MedFamilies(const MeshData* data, const MedRemarks& remarks)
-      : data_(data), remarks_(remarks), is_med_(data != nullptr && data->variant == kMed) {}
+  MedFamilies(const MeshData* data, const MedRemarks& remarks);
 
   /// In which groups that name their members these points or elements are.
   std::vector<std::uint32_t> chains(int dimension, std::size_t count);
@@ -49,7 +48,7 @@ class MedFamilies {
  private:
   std::vector<std::string> groups_of(const MedFamilyKey& key);
 
-  /// Names of 80 bytes at most that are still different.
+  /// Names that fit, and are still different.
   std::string cut(const std::string& name);
 
   const MeshData* data_;
@@ -61,7 +60,7 @@ class MedFamilies {
   MedFamilyKey last_;
   std::uint32_t last_place_ = 0;
   std::map<std::string, std::string> cut_;
-  UniqueNames cut_names_;
+  UniqueNames cut_names_{kMedGroupNames};
 };
 
 }  // namespace tetmend::formats

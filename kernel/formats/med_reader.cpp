@@ -20,35 +20,15 @@
 #include "kernel/formats/inp_lines.h"
 #include "kernel/formats/inp_sets.h"
 #include "kernel/formats/med.h"
+#include "kernel/formats/med_blocks.h"
+#include "kernel/formats/med_labels.h"
 #include "kernel/geometry.h"
 
 namespace tetmend::formats {
 namespace {
 
-constexpr std::string_view kWholeMesh = "MED_NO_PROFILE_INTERNAL";
-
 /// Types that are not in kMedTypes, and that a mesh cannot do without.
 constexpr std::array<std::string_view, 5> kOtherVolumes = {"P18", "H27", "OCT", "POE", "O12"};
-
-std::string trimmed_text(std::string text) {
-  text.resize(text.find_last_not_of(' ') + 1);
-  return text;
-}
-
-/// Elements of one type.
-struct MedBlock {
-  const MedType* type = nullptr;
-  std::string path;
-  std::size_t count = 0;
-  std::vector<std::int64_t> nodes;     // first nodes of all, then second ones...
-  std::vector<std::int64_t> families;  // one for each, or none
-  std::vector<std::int64_t> numbers;
-
-  Label family(std::size_t i) const {
-    return families.empty() ? 0 : static_cast<Label>(families[i]);
-  }
-  const ElementKind& kind() const { return *element_kind(type->vtk_type); }
-};
 
 class Reader {
  public:
@@ -59,11 +39,12 @@ class Reader {
     find_mesh();
     read_points();
     read_blocks();
-    read_families();
-    number_groups();
+    labels_.read_families(*file_, "FAS/" + name_);
+    for (const MedBlock& block : blocks_) labels_.use(block.kind().dimension, block.families);
+    labels_.number_groups(mesh_);
     add_elements();
     add_groups();
-    read_fields();
+    read_med_fields(*file_, name_, blocks_, sorter_, mesh_);
     note_the_rest();
     mesh_.variant = kMed;
     return std::move(mesh_);
@@ -203,106 +184,6 @@ class Reader {
     return block;
   }
 
-  void read_families() {
-    const std::string path = "FAS/" + name_;
-    if (!file_->has(path)) return;
-    for (const bool of_nodes : {true, false}) {
-      const std::string all = path + (of_nodes ? "/NOEUD" : "/ELEME");
-      if (!file_->has(all)) continue;
-      for (const std::string& name : file_->names(all)) {
-        const std::string family = all + "/" + name;
-        const std::int64_t number = file_->integer(family, "NUM");
-        if (number <= INT32_MIN || number > INT32_MAX)
-          file_->fail(family, "the number of the family has more than 32 bits");
-        std::vector<std::string>& groups = groups_of_[of_nodes][static_cast<Label>(number)];
-        if (!file_->has(family + "/GRO/NOM")) continue;
-        for (std::string& group : file_->texts(family + "/GRO/NOM")) {
-          const bool is_new = std::find(groups.begin(), groups.end(), group) == groups.end();
-          if (is_new && !group.empty()) groups.push_back(std::move(group));
-        }
-      }
-    }
-  }
-
-  /// By dimension: groups of the families that elements have, each with a number. That is the number of its
-  /// first family, if it is free.
-  void number_groups() {
-    for (const MedBlock& block : blocks_) {
-      const auto dimension = static_cast<std::size_t>(block.kind().dimension);
-      for (const std::int64_t family : block.families)
-        used_[dimension].insert(static_cast<Label>(family));
-    }
-    for (std::size_t dimension = 1; dimension < used_.size(); ++dimension) {
-      take_labels(dimension);
-      for (auto family = used_[dimension].rbegin(); family != used_[dimension].rend(); ++family) {
-        add_family(dimension, *family);
-      }
-    }
-    for (const Label family : bare_families_)
-      remark("bare family", "yes", fmt::format("{}", family));
-    if (!used_[0].empty() && std::any_of(used_[0].begin(), used_[0].end(),
-                                         [&](Label family) { return has_groups(false, family); })) {
-      mesh_.notes.emplace_back("groups of elements that are points are not kept");
-    }
-    std::set<Label> known;
-    for (const std::set<Label>& used : used_) known.insert(used.begin(), used.end());
-    std::set<std::string> empty;
-    for (const auto& [family, names] : groups_of_[false]) {
-      if (!known.contains(family)) empty.insert(names.begin(), names.end());
-    }
-    for (const Group& group : mesh_.groups) empty.erase(group.name);
-    if (!empty.empty())
-      mesh_.notes.push_back(fmt::format("{} groups without elements are not kept, the first is {}",
-                                        empty.size(), in_quotes(*empty.begin())));
-  }
-
-  bool has_groups(bool of_nodes, Label family) const {
-    const auto found = groups_of_[of_nodes].find(family);
-    return found != groups_of_[of_nodes].end() && !found->second.empty();
-  }
-
-  /// No group gets the number of a label that has no group.
-  void take_labels(std::size_t dimension) {
-    for (const Label family : used_[dimension]) {
-      if (!has_groups(false, family)) {
-        numbers_[dimension].insert(-family);
-        continue;
-      }
-      for (const std::string& name : groups_of_[false].at(family)) {
-        if (Label label = 0; to_label(inp_key(name), label)) numbers_[dimension].insert(label);
-      }
-    }
-  }
-
-  void add_family(std::size_t dimension, Label family) {
-    std::map<Label, Label>& labels = label_of_[dimension];
-    if (!has_groups(false, family)) {
-      labels[family] = -family;
-      if (family != 0) bare_families_.insert(family);
-      return;
-    }
-    for (const std::string& name : groups_of_[false].at(family)) {
-      Label label = 0;
-      if (to_label(inp_key(name), label)) {
-        labels[family] = label;
-        continue;
-      }
-      const auto [at, is_new] = group_at_.try_emplace({dimension, name}, mesh_.groups.size());
-      if (is_new) mesh_.groups.push_back({static_cast<int>(dimension), 0, name, {}, {}});
-      Group& group = mesh_.groups[at->second];
-      if (is_new) group.number = free_number(dimension, family);
-      group.parts.push_back(family);
-      labels.try_emplace(family, group.number);
-    }
-  }
-
-  Label free_number(std::size_t dimension, Label family) {
-    std::set<Label>& taken = numbers_[dimension];
-    Label number = std::max(-family, 1);
-    while (!taken.insert(number).second) number = number == INT32_MAX ? 1 : number + 1;
-    return number;
-  }
-
   /// Files of other writers may have tets as VTK has them: most have a positive volume then.
   bool are_volumes_as_in_vtk() const {
     std::size_t turned = 0;
@@ -339,7 +220,6 @@ class Reader {
     for (const MedBlock& block : blocks_) {
       const ElementKind& kind = block.kind();
       std::vector<Label>& parts = parts_of(kind);
-      const std::map<Label, Label>& labels = label_of_[static_cast<std::size_t>(kind.dimension)];
       ElementRow row;
       row.kind = &kind;
       for (std::size_t i = 0; i < block.count; ++i) {
@@ -349,13 +229,11 @@ class Reader {
           row.vertices[k] = static_cast<std::uint32_t>(block.nodes[from * block.count + i] - 1);
         }
         const Label family = block.family(i);
-        const auto label = labels.find(family);
-        row.label = label == labels.end() ? -family : label->second;
+        row.label = labels_.label_of(kind.dimension, family);
         row.number = block.numbers.empty() ? 0 : block.numbers[i];
         sorter_.add(row, has_numbers && with_numbers);
         if (has_families) parts.push_back(family);
-        if (question_ != nullptr && kind.vtk_type == vtk_tet &&
-            mesh_.tets.size() == question_->tet + 1) {
+        if (is_last_asked_for(question_, mesh_, kind.vtk_type)) {
           question_->place = fmt::format("{}: /{}: element {}", input_.name(), block.path, i + 1);
         }
       }
@@ -381,11 +259,11 @@ class Reader {
     mesh_.point_labels.assign(mesh_.points.size(), 0);
     for (std::uint32_t i = 0; i < point_families_.size(); ++i) {
       const auto family = static_cast<Label>(point_families_[i]);
-      if (!has_groups(true, family)) {
+      if (!labels_.has_groups(true, family)) {
         mesh_.point_labels[i] = family;
         continue;
       }
-      for (const std::string& name : groups_of_[true].at(family)) {
+      for (const std::string& name : labels_.groups_of_points(family)) {
         if (to_label(inp_key(name), mesh_.point_labels[i])) continue;
         const auto [at, is_new] = group_at.try_emplace(name, mesh_.groups.size());
         if (is_new) mesh_.groups.push_back({0, static_cast<Label>(group_at.size()), name, {}, {}});
@@ -393,90 +271,6 @@ class Reader {
       }
     }
     drop_zero_point_labels(mesh_);
-  }
-
-  void read_fields() {
-    if (!file_->has("CHA")) return;
-    for (const std::string& name : file_->names("CHA")) {
-      const std::string path = "CHA/" + name;
-      if (trimmed_text(file_->text(path, "MAI")) != name_) {
-        mesh_.notes.push_back(
-            fmt::format("the field {} is not kept: it is of another mesh", in_quotes(name)));
-        continue;
-      }
-      const std::vector<std::string> steps = file_->names(path);
-      if (steps.size() > 1) {
-        mesh_.notes.push_back(fmt::format("of the {} steps of the field {} only the first is kept",
-                                          steps.size(), in_quotes(name)));
-      }
-      if (steps.empty()) continue;
-      for (const char* what : {"NOM", "UNI", "UNT"}) remark(what, file_->text(path, what), name);
-      read_step(name, path + "/" + steps[0]);
-    }
-  }
-
-  void read_step(const std::string& name, const std::string& path) {
-    const std::int64_t components = file_->integer("CHA/" + name, "NCO");
-    if (components < 1 || components > 1000000)
-      file_->fail("CHA/" + name, "the number of components makes no sense");
-    remark("step",
-           fmt::format("{} {} {}", file_->integer(path, "NDT"), file_->integer(path, "NOR"),
-                       file_->real(path, "PDT")),
-           name);
-    for (const std::string& support : file_->names(path)) {
-      const std::string profile = trimmed_text(file_->text(path + "/" + support, "PFL"));
-      const std::string values = path + "/" + support + "/" + profile;
-      const auto block = std::find_if(blocks_.begin(), blocks_.end(), [&](const MedBlock& each) {
-        return "MAI." + std::string(each.type->name) == support;
-      });
-      const bool is_whole =
-          profile == kWholeMesh && file_->has(values, "NGA") && file_->integer(values, "NGA") == 1;
-      if ((support != "NOE" && block == blocks_.end()) || !is_whole) {
-        mesh_.notes.push_back(fmt::format("the values of the field {} for {} are not kept: {}",
-                                          in_quotes(name), in_quotes(support),
-                                          profile == kWholeMesh
-                                              ? "they are not one for each point or element"
-                                              : "they are of a part of the mesh"));
-        continue;
-      }
-      const std::size_t count = support == "NOE" ? mesh_.points.size() : block->count;
-      add_array(name, values + "/CO", count, static_cast<std::size_t>(components),
-                support == "NOE" ? mesh_.point_data : data_of(block->kind()));
-    }
-  }
-
-  std::vector<DataArray>& data_of(const ElementKind& kind) {
-    switch (kind.vtk_type) {
-      case vtk_tet:
-        return mesh_.tet_data;
-      case vtk_triangle:
-        return mesh_.triangle_data;
-      case vtk_edge:
-        return mesh_.edge_data;
-      default:
-        return sorter_.others(kind).data;
-    }
-  }
-
-  void add_array(const std::string& name, const std::string& path, std::size_t count,
-                 std::size_t components, std::vector<DataArray>& to) {
-    DataArray array;
-    array.name = name;
-    array.components = components;
-    array.values = file_->values(path);
-    if (array.size() != count * components || count == 0) {
-      file_->fail(path, fmt::format("the table has {} values: expected {} for each of {}",
-                                    array.size(), components, count));
-    }
-    std::visit(
-        [&](auto& values) {
-          auto turned = values;
-          for (std::size_t i = 0; i < values.size(); ++i)
-            turned[i % count * components + i / count] = values[i];
-          values = std::move(turned);
-        },
-        array.values);
-    to.push_back(std::move(array));
   }
 
   void note_the_rest() {
@@ -490,6 +284,8 @@ class Reader {
     };
     note("/", {"INFOS_GENERALES", "ENS_MAA", "FAS", "CHA", "PROFILS", "GAUSS"});
     note(step_, {"NOE", "MAI"});
+    note(step_ + "/NOE", {"COO", "FAM", "NUM", "NOM"});
+    for (const MedBlock& block : blocks_) note(block.path, {"NOD", "FAM", "NUM", "NOM"});
   }
 
   const InputFile& input_;
@@ -501,13 +297,7 @@ class Reader {
   std::string step_;  // its path
   std::vector<std::int64_t> point_families_;
   std::vector<MedBlock> blocks_;
-  std::array<std::map<Label, std::vector<std::string>>, 2> groups_of_;  // by family; [1]: of nodes
-  // By dimension of elements:
-  std::array<std::set<Label>, 4> used_;  // families
-  std::array<std::map<Label, Label>, 4> label_of_;
-  std::set<Label> bare_families_;           // without groups
-  std::array<std::set<Label>, 4> numbers_;  // of groups
-  std::map<std::pair<std::size_t, std::string>, std::size_t> group_at_;
+  MedLabels labels_;
 };
 
 }  // namespace

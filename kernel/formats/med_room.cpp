@@ -13,7 +13,7 @@
 namespace tetmend::formats {
 
 bool is_med_name(std::string_view name) {
-  return name.size() <= kMedGroupName && !name.ends_with(' ');
+  return fits(name, kMedGroupNames);
 }
 
 std::string med_remark_key(std::string_view what, std::string_view about) {
@@ -45,9 +45,7 @@ std::vector<std::string> not_in_med(const std::filesystem::path&, const MeshData
   std::vector<std::string> notes;
   const auto look = [&](const std::vector<DataArray>& arrays) {
     for (const DataArray& array : arrays) {
-      const bool is_kept =
-          array.name.size() <= kMedName && array.name.find('/') == std::string::npos;
-      if (!is_kept)
+      if (!fits(array.name, kMedNames))
         notes.push_back(
             fmt::format("the name of the array '{}' is not kept as it is: .med has other rules",
                         printable(array.name)));

@@ -28,13 +28,6 @@ constexpr std::int32_t kMedReal = 6;
 constexpr std::int32_t kMedInteger32 = 24;
 constexpr std::int32_t kMedInteger64 = 26;
 
-/// As a part of a path, of 64 bytes at most.
-std::string path_name(std::string name) {
-  std::replace(name.begin(), name.end(), '/', '!');
-  if (name.empty() || name == ".") name = "unnamed";
-  return name.substr(0, kMedName);
-}
-
 /// New numbers above those that are there, all of which are different.
 class FillNumbers {
  public:
@@ -79,7 +72,7 @@ class Writer {
     file_->set("INFOS_GENERALES", "MAJ", 3);  // which programs with MED 4 read, too
     file_->set("INFOS_GENERALES", "MIN", 0);
     file_->set("INFOS_GENERALES", "REL", 0);
-    name_ = path_name(remark("mesh", "mesh"));
+    name_ = fit_name(remark("mesh", "mesh"), kMedNames);
     const std::string path = "ENS_MAA/" + name_;
     file_->group(path);
     for (const char* what : {"DIM", "ESP"}) file_->set(path, what, 3);
@@ -245,13 +238,13 @@ class Writer {
   void write_family(const std::string& folder, const MedFamilies::Family& family) {
     std::string name = fmt::format("FAM_{}", family.number);
     for (const std::string& group : family.groups) name += "_" + group;
-    const std::string path = folder + path_name(name);
+    const std::string path = folder + fit_name(name, kMedNames);
     file_->group(path);
     file_->set(path, "NUM", family.number);
     if (family.groups.empty()) return;
     file_->group(path + "/GRO");
     file_->set(path + "/GRO", "NBR", static_cast<std::int32_t>(family.groups.size()));
-    file_->write_texts(path + "/GRO/NOM", family.groups, kMedGroupName);
+    file_->write_texts(path + "/GRO/NOM", family.groups, kMedGroupNames.most);
   }
 
   void write_fields() {
@@ -301,7 +294,7 @@ class Writer {
                                                           : kMedReal;
     const auto [at, is_new] = fields_.try_emplace({array.name, type, array.components});
     if (!is_new) return at->second;
-    const std::string path = "CHA/" + field_names_.make(path_name(array.name));
+    const std::string path = "CHA/" + field_names_.make_fit(array.name);
     const auto width = static_cast<std::int32_t>(array.components);
     file_->group(path);
     file_->set(path, "MAI", name_);
@@ -336,7 +329,7 @@ class Writer {
   std::vector<std::uint32_t> point_places_;
   std::vector<Block> blocks_;
   std::map<std::tuple<std::string, std::int32_t, std::size_t>, std::string> fields_;
-  UniqueNames field_names_;
+  UniqueNames field_names_{kMedNames};
 };
 
 }  // namespace

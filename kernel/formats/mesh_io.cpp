@@ -209,6 +209,7 @@ constexpr Room kCgnsRoom = {.data = true,
                             .point_labels = false,
                             .holds = formats::cgns_holds,
                             .takes_name = formats::is_cgns_name,
+                            .names_are_unique = true,
                             .low_labels = false,
                             .deck = formats::kCgns};
 

@@ -124,6 +124,8 @@ class MfemReader {
       }
     };
     const std::size_t count = text_.count("elements", std::string_view("1 2 0 1 2\n").size());
+    if (count > 0 && last_vertex_ < 0)
+      text_.fail("no vertices follow the elements: is the file complete?");
     read_element_rows(text_, count, read, [this](const ElementRow& row) {
       sorter_.add(row);
       answer(question_, mesh_, text_, row);

@@ -37,6 +37,7 @@ struct NetcdfTable {
   std::uint32_t type = 0;
   std::vector<std::uint64_t> extents;
   bool has_steps = false;
+  std::uint64_t steps = 1;  ///< rows that are apart
   std::uint64_t begin = 0;
   std::map<std::string, std::string> texts;
   std::map<std::string, double> numbers;
@@ -67,26 +68,26 @@ class ClassicReader final : public Hdf5Reader {
     return table(path).extents;
   }
   DataArray::Values values(const std::string& path) const override {
-    switch (table(path).type) {
-      case nc_float:
-        return numbers<float>(path);
-      case nc_double:
-      case nc_uint64:
-        return numbers<double>(path);
-      case nc_int64:
-      case nc_uint:
-        return numbers<std::int64_t>(path);
-      default:
-        return numbers<std::int32_t>(path);
+    return values(path, table(path));
+  }
+  DataArray::Values row(const std::string& path, std::uint64_t number) const override {
+    NetcdfTable from = table(path);
+    if (from.has_steps) {
+      from.begin += number * stride(from);
+    } else {
+      from.extents[0] = 1;
+      from.begin += number * from.count() * kSizes[from.type];
     }
+    from.steps = 1;
+    return values(path, from);
   }
   std::vector<std::int64_t> integers(const std::string& path) const override {
     const std::uint32_t type = table(path).type;
     if (type == nc_float || type == nc_double) fail(path, "the table holds no integers");
-    return numbers<std::int64_t>(path);
+    return numbers<std::int64_t>(path, table(path));
   }
   std::vector<double> reals(const std::string& path) const override {
-    return numbers<double>(path);
+    return numbers<double>(path, table(path));
   }
   std::vector<std::string> texts(const std::string& path) const override {
     const NetcdfTable& from = table(path);
@@ -94,14 +95,7 @@ class ClassicReader final : public Hdf5Reader {
     const auto width = static_cast<std::size_t>(from.extents.back());
     std::string all;
     each_step(from, [&](const char* begin, std::uint64_t count) { all.append(begin, count); });
-    std::vector<std::string> rows;
-    for (std::size_t at = 0; width > 0 && at < all.size(); at += width) {
-      std::string row = all.substr(at, width);
-      row.resize(std::min(row.find('\0'), row.size()));
-      row.resize(row.find_last_not_of(' ') + 1);
-      rows.push_back(std::move(row));
-    }
-    return rows;
+    return text_rows(all, width);
   }
 
   bool has(const std::string& path, const char* attribute) const override {
@@ -228,6 +222,7 @@ class ClassicReader final : public Hdf5Reader {
       table.has_steps = table.has_steps || (is_step && table.extents.empty());
       table.extents.push_back(is_step ? steps_ : lengths_[number]);
     }
+    if (table.has_steps) table.steps = steps_;
     read_attributes(table);
     table.type = type();
     length("the size of a table");  // it says nothing new, and large ones have none
@@ -284,14 +279,17 @@ class ClassicReader final : public Hdf5Reader {
     }
   }
 
+  /// From one row of a table with steps to the next.
+  std::uint64_t stride(const NetcdfTable& table) const {
+    return tables_of_step_ == 1 ? table.count() * kSizes[table.type] : bytes_of_step_;
+  }
   /// take(begin, count) for the numbers of each step; of a table without steps once.
   template <class Take>
   void each_step(const NetcdfTable& table, const Take& take) const {
     const std::uint64_t count = table.count();
     const std::uint64_t size = count * kSizes[table.type];
-    const std::uint64_t stride = tables_of_step_ == 1 ? size : bytes_of_step_;
-    for (std::uint64_t step = 0; step < (table.has_steps ? steps_ : 1); ++step) {
-      const std::uint64_t begin = table.begin + step * stride;
+    for (std::uint64_t step = 0; step < table.steps; ++step) {
+      const std::uint64_t begin = table.begin + step * stride(table);
       if (begin > input_.size() || size > input_.size() - begin) {
         throw Error(
             fmt::format("{}: byte {}: a table lies behind the end of the file: it is "
@@ -301,11 +299,25 @@ class ClassicReader final : public Hdf5Reader {
       take(input_.begin() + begin, count);
     }
   }
+  DataArray::Values values(const std::string& path, const NetcdfTable& from) const {
+    switch (from.type) {
+      case nc_float:
+        return numbers<float>(path, from);
+      case nc_double:
+      case nc_uint64:
+        return numbers<double>(path, from);
+      case nc_int64:
+      case nc_uint:
+        return numbers<std::int64_t>(path, from);
+      default:
+        return numbers<std::int32_t>(path, from);
+    }
+  }
   template <class Number>
-  std::vector<Number> numbers(const std::string& path) const {
-    const NetcdfTable& from = table(path);
+  std::vector<Number> numbers(const std::string& path, const NetcdfTable& from) const {
     if (from.type == nc_char) fail(path, "the table holds no numbers");
     std::vector<Number> all;
+    all.reserve(static_cast<std::size_t>(from.steps * from.count()));
     each_step(from, [&](const char* begin, std::uint64_t count) {
       for (std::uint64_t i = 0; i < count; ++i) {
         all.push_back(number<Number>(begin + i * kSizes[from.type], from.type));

@@ -9,12 +9,14 @@
 #include <fmt/format.h>
 
 #include "kernel/formats/cgns.h"
+#include "kernel/formats/element_kinds.h"
 #include "kernel/formats/exodus.h"
 #include "kernel/formats/label_names.h"
 #include "kernel/formats/med.h"
 #include "kernel/formats/medit_marks.h"
 #include "kernel/formats/medit_vectors.h"
 #include "kernel/formats/nastran.h"
+#include "kernel/formats/unv.h"
 #include "kernel/formats/vtk_roles.h"
 #include "kernel/formats/xdmf.h"
 #include "kernel/parts.h"
@@ -172,6 +174,9 @@ std::vector<std::string> lost_in(const Room& room, const std::string& extension,
     const bool held = room.others && (room.holds == nullptr || room.holds(others.vtk_type));
     notes.lost(held, others.labels.size(),
                fmt::format("elements of VTK's type {} are", others.vtk_type));
+    const ElementKind* kind = element_kind(others.vtk_type);
+    if (held && room.data && kind != nullptr && !has_data(kind->dimension))
+      notes.arrays(kind->name, others.data, room);
   }
   const bool has_deck = !room.deck.empty() && room.deck == mesh.variant;
   const bool by_labels = !are_finer_than_labels(mesh.tets, mesh.tet_parts) &&
@@ -194,6 +199,7 @@ std::vector<std::string> lost_in(const Room& room, const std::string& extension,
              : mesh.variant == kCgns    ? cgns_pieces_to_miss(mesh)
              : mesh.variant == kNastran ? nastran_pieces_to_miss(mesh)
              : mesh.variant == kXdmf    ? 0
+             : mesh.variant == kUnv     ? unv_pieces_to_miss(mesh)
                                         : mesh.deck.size(),
              "pieces of a deck, all that is no mesh, are");
   return std::move(notes.sentences);

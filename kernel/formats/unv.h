@@ -2,6 +2,7 @@
 // I-DEAS's universal file, `.unv`, which Salome, Gmsh and test programs write: nodes, elements, groups.
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <string_view>
 
@@ -14,6 +15,12 @@ namespace tetmend::formats {
 
 /// MeshData::variant of such a mesh: its deck, datasets that name no nodes, is ours.
 inline constexpr std::string_view kUnv = "UNV";
+/// A piece of the deck that is no dataset: behind it the number of that of the groups, if it is not
+/// kUnvGroups, for some programs read their own alone.
+inline constexpr std::string_view kUnvGroupsPiece = "groups ";
+inline constexpr std::string_view kUnvGroups = "2467";
+/// How many datasets of its deck a reader of another format would miss.
+std::size_t unv_pieces_to_miss(const MeshData& mesh);
 
 /// Descriptor, property, material and colour of an element, where they are not what the writer says
 /// by itself.
@@ -34,7 +41,7 @@ bool is_unv_name(std::string_view name);
 /// numbers. @throws Error
 MeshData read_unv(const std::filesystem::path& file, TetPlace* question = nullptr);
 
-/// Writes datasets 2411, 2412 and 2467. Doubles have all digits. @throws Error
+/// Writes datasets 2411, 2412 and 2467, or 2435, 2452 or 2477 where groups came in it. Doubles have all digits. @throws Error
 void write_unv(const std::filesystem::path& file, const MeshView& mesh);
 
 }  // namespace tetmend::formats

@@ -14,7 +14,7 @@
 #include "kernel/formats/element_checks.h"
 #include "kernel/formats/element_rows.h"
 #include "kernel/formats/element_sets.h"
-#include "kernel/formats/gmsh_tags.h"
+#include "kernel/formats/number_index.h"
 #include "kernel/formats/text_reader.h"
 #include "kernel/formats/unv.h"
 #include "kernel/formats/unv_elements.h"
@@ -74,9 +74,9 @@ class UnvReader {
   MeshData read() {
     find_datasets();
     each_dataset(has_nodes, [this](const UnvDataset& dataset) { read_nodes(dataset); });
-    number_nodes();
+    nodes_ = index_of(mesh_.point_numbers, node_places_, "a node");
     each_dataset(has_elements, [this](const UnvDataset& dataset) { read_elements(dataset); });
-    number_elements();
+    elements_ = index_of(element_numbers_, element_places_, "an element");
     each_dataset(has_groups, [this](const UnvDataset& dataset) { read_groups(dataset); });
     number_sets(sets_);
     label_by_groups();
@@ -169,28 +169,13 @@ class UnvReader {
     }
   }
 
-  /// Refuses a number twice; gives the order of the numbers.
-  GmshTags tags_of(const std::vector<std::int64_t>& numbers, std::vector<std::uint32_t>& order,
-                   const std::vector<const char*>& places, std::string_view what) const {
-    order = ascending_order(numbers);
-    std::vector<std::int64_t> ascending(order.size());
-    for (std::size_t i = 0; i < order.size(); ++i) {
-      ascending[i] = numbers[order[i]];
-      if (i == 0 || ascending[i] != ascending[i - 1]) continue;
-      text_.fail_at(
-          places[order[i]],
-          fmt::format("the number '{}' of {} appears for the second time", ascending[i], what));
-    }
-    return GmshTags(std::move(ascending));
-  }
-  static std::uint32_t find(const GmshTags& tags, const std::vector<std::uint32_t>& order,
-                            std::int64_t number) {
-    const std::uint32_t found = tags.find(number);
-    return found == GmshTags::kNone ? found : order[found];
-  }
-
-  void number_nodes() {
-    nodes_ = tags_of(mesh_.point_numbers, node_order_, node_places_, "a node");
+  NumberIndex index_of(const std::vector<std::int64_t>& numbers,
+                       const std::vector<const char*>& places, std::string_view what) const {
+    return {numbers, [&](std::uint32_t i) {
+              text_.fail_at(places[i],
+                            fmt::format("the number '{}' of {} appears for the second time",
+                                        numbers[i], what));
+            }};
   }
 
   // ---- Elements -----------------------------------------------------------------------------------
@@ -251,8 +236,8 @@ class UnvReader {
     std::array<std::uint32_t, kMostVerticesOfElement> listed{};
     for (std::size_t k = 0; k < row.kind->width; ++k) {
       const std::int64_t number = text_.integer("the number of a node", 0, INT64_MAX);
-      listed[k] = find(nodes_, node_order_, number);
-      if (listed[k] == GmshTags::kNone) {
+      listed[k] = nodes_.find(number);
+      if (listed[k] == NumberIndex::kNone) {
         text_.fail(fmt::format("'{}' is not the number of a node", number));
       }
     }
@@ -267,10 +252,6 @@ class UnvReader {
     properties_[dimension].insert(numbers[1]);
     homes_.push_back(static_cast<std::uint32_t>(
         homes_of_.try_emplace({numbers[1], numbers[2]}, homes_of_.size()).first->second));
-  }
-
-  void number_elements() {
-    elements_ = tags_of(element_numbers_, element_order_, element_places_, "an element");
   }
 
   /// Salome and others give all elements one property and part them by groups.
@@ -325,6 +306,8 @@ class UnvReader {
 
   void read_groups(const UnvDataset& dataset) {
     const bool is_wide = has_wide_groups(dataset.name);
+    if (is_wide && sets_.empty() && dataset.name != kUnvGroups)
+      mesh_.deck.push_back(fmt::format("{}{}", kUnvGroupsPiece, dataset.name));
     for (;;) {
       ElementSet set;
       set.number = text_.integer("the number of a group", kEnd, INT64_MAX);
@@ -357,10 +340,10 @@ class UnvReader {
     constexpr std::int64_t kElement = 8;
     const std::int64_t type = text_.integer("the type of a member", 0, INT32_MAX);
     const std::int64_t number = text_.integer("the number of a member", 0, INT64_MAX);
-    std::uint32_t found = GmshTags::kNone;
-    if (type == kNode) found = find(nodes_, node_order_, number);
-    if (type == kElement) found = find(elements_, element_order_, number);
-    if (found == GmshTags::kNone) return false;
+    std::uint32_t found = NumberIndex::kNone;
+    if (type == kNode) found = nodes_.find(number);
+    if (type == kElement) found = elements_.find(number);
+    if (found == NumberIndex::kNone) return false;
     (type == kNode ? set.points : set.elements).push_back(found);
     return true;
   }
@@ -381,8 +364,7 @@ class UnvReader {
   std::vector<const char*> node_places_, element_places_;
   std::vector<std::int32_t> node_numbers_;  // three of each
   bool nodes_differ_ = false;
-  std::vector<std::uint32_t> node_order_, element_order_;  // in which their numbers ascend
-  GmshTags nodes_, elements_;
+  NumberIndex nodes_, elements_;
   std::vector<ElementPlace> places_;  // of elements, as they stand in the file
   std::vector<std::int64_t> element_numbers_;
   std::vector<std::array<std::int32_t, 4>> numbers_;  // kUnvElement of each

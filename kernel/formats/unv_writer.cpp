@@ -69,7 +69,13 @@ class UnvWriter {
 
   void write() {
     if (mesh_.data() != nullptr && mesh_.data()->variant == kUnv) {
-      for (const std::string& dataset : mesh_.data()->deck) out_.put(dataset);
+      for (const std::string& piece : mesh_.data()->deck) {
+        if (piece.starts_with(kUnvGroupsPiece)) {
+          groups_ = piece.substr(kUnvGroupsPiece.size());
+        } else {
+          out_.put(piece);
+        }
+      }
     }
     write_nodes();
     write_elements();
@@ -158,7 +164,7 @@ class UnvWriter {
     std::vector<ElementSet> numbers(groups.size());
     for (std::size_t g = 0; g < groups.size(); ++g) numbers[g].number = groups[g].number;
     number_sets(numbers);
-    begin("2467");
+    begin(groups_);
     for (std::size_t g = 0; g < groups.size(); ++g) {
       std::string& name = groups[g].name;
       if (!is_unv_name(name)) {
@@ -188,6 +194,7 @@ class UnvWriter {
   ElementLists lists_;
   std::vector<std::int64_t> points_;                 // their numbers
   std::vector<std::vector<std::int64_t>> elements_;  // of each list
+  std::string groups_{kUnvGroups};                   // the dataset
 };
 
 }  // namespace
@@ -196,6 +203,12 @@ bool is_unv_name(std::string_view name) {
   return !name.empty() && name != "-1" && name.front() != ' ' && name.back() != ' ' &&
          std::none_of(name.begin(), name.end(),
                       [](char c) { return static_cast<unsigned char>(c) < ' '; });
+}
+
+std::size_t unv_pieces_to_miss(const MeshData& mesh) {
+  return static_cast<std::size_t>(
+      std::count_if(mesh.deck.begin(), mesh.deck.end(),
+                    [](const std::string& piece) { return !piece.starts_with(kUnvGroupsPiece); }));
 }
 
 void write_unv(const std::filesystem::path& file, const MeshView& mesh) {

@@ -9,6 +9,8 @@
 
 #include <fmt/format.h>
 
+#include "kernel/printable.h"
+
 namespace tetmend::formats {
 
 std::vector<std::string> component_names(const DataArray& array, const AxisEndings& endings) {
@@ -19,6 +21,47 @@ std::vector<std::string> component_names(const DataArray& array, const AxisEndin
                                           : fmt::format("{}_{}", array.name, c + 1));
   }
   return names;
+}
+
+std::vector<std::string> component_names(const DataArray& array, const AxisEndings& endings,
+                                         UniqueNames& taken) {
+  DataArray named{array.name, array.components, {}};
+  const std::size_t longest = component_names({{}, array.components, {}}, endings).back().size();
+  NameRules rules = taken.rules();
+  const bool is_short = rules.most != SIZE_MAX;
+  if (is_short) rules.most -= longest;
+  for (int number = 1;; ++number) {
+    const std::string ending = number == 1 ? "" : fmt::format("_{}", number);
+    NameRules before = rules;
+    if (is_short) before.most -= ending.size();
+    named.name = fit_name(array.name, before) + ending;
+    const std::vector<std::string> names = component_names(named, endings);
+    if (std::any_of(names.begin(), names.end(), [&](const auto& name) { return taken.has(name); }))
+      continue;
+    for (const std::string& name : names) taken.take(name);
+    return names;
+  }
+}
+
+void note_component_arrays(const std::vector<DataArray>& arrays, const AxisEndings& endings,
+                           UniqueNames taken, std::string_view extension,
+                           std::vector<std::string>& notes) {
+  const auto note = [&](std::string sentence) {
+    if (std::find(notes.begin(), notes.end(), sentence) == notes.end())
+      notes.push_back(std::move(sentence));
+  };
+  for (const DataArray& array : arrays) {
+    const std::string name = printable(array.name);
+    const std::vector<std::string> names = component_names(array, endings, taken);
+    if (names != component_names(array, endings)) {
+      note(fmt::format("the name of the array '{}' is not kept as it is: {} has other rules", name,
+                       extension));
+    }
+    if (array.components != 1 && array.components != 3) {
+      note(fmt::format("the array '{}' is not kept as one: {} has {} arrays of it", name, extension,
+                       array.components));
+    }
+  }
 }
 
 DataArray::Values component_values(const DataArray& array, std::size_t component) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The numbers of an XDMF file: in it, or in tables of a file of HDF5 that it names.
+// The numbers of an XDMF file: in it, in a binary file, or in tables of a file of HDF5 that it names.
 #pragma once
 
 #include <cstddef>
@@ -34,10 +34,12 @@ class XdmfItems {
   std::vector<std::size_t> dimensions(const pugi::xml_node& item) const;
   DataArray::Values values(const pugi::xml_node& item);
   std::vector<std::int64_t> integers(const pugi::xml_node& item);
+  std::vector<double> reals(const pugi::xml_node& item);
 
  private:
   void open(const std::string& name);
   DataArray::Values inline_values(const pugi::xml_node& item) const;
+  DataArray::Values binary_values(const pugi::xml_node& item) const;
 
   const InputFile& file_;
   std::filesystem::path folder_;

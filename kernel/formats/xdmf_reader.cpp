@@ -135,13 +135,13 @@ class Reader {
     const pugi::xml_node geometry = mesh_grid_.child("Geometry");
     const std::string type =
         geometry.attribute("GeometryType").as_string(geometry.attribute("Type").as_string("XYZ"));
-    if (type != "XYZ") {
-      fail(geometry, fmt::format("the geometry {} cannot be read: expected XYZ", in_quotes(type)));
+    const bool is_by_axis = xdmf_lower_case(type) == "x_y_z";
+    if (!is_by_axis && xdmf_lower_case(type) != "xyz") {
+      fail(geometry,
+           fmt::format("the geometry {} cannot be read: expected XYZ or X_Y_Z", in_quotes(type)));
     }
     const pugi::xml_node item = items_.item_of(geometry);
-    const std::vector<double> all =
-        std::visit([](const auto& from) { return std::vector<double>(from.begin(), from.end()); },
-                   items_.values(item));
+    const std::vector<double> all = is_by_axis ? axes_of(item) : items_.reals(item);
     if (all.size() % 3 != 0 || all.size() / 3 > kMostVertices)
       fail(item, fmt::format("{} numbers are not three for each point", all.size()));
     mesh_.points.resize(all.size() / 3);
@@ -150,6 +150,21 @@ class Reader {
         fail(item, fmt::format("a coordinate of point {} is not finite", i / 3 + 1));
       mesh_.points[i / 3][static_cast<Eigen::Index>(i % 3)] = all[i];
     }
+  }
+
+  /// Three lists, as one of points.
+  std::vector<double> axes_of(pugi::xml_node item) {
+    std::vector<double> all;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const std::vector<double> of_axis = items_.reals(item);
+      if (axis == 0) all.resize(3 * of_axis.size());
+      if (3 * of_axis.size() != all.size()) fail(item, "the axes have different lengths");
+      for (std::size_t i = 0; i < of_axis.size(); ++i) all[3 * i + axis] = of_axis[i];
+      const pugi::xml_node next = item.next_sibling("DataItem");
+      if (axis < 2 && !next) fail(item, "three lists of coordinates were expected");
+      item = next;
+    }
+    return all;
   }
 
   const XdmfType* type_of(const pugi::xml_node& topology, const std::string& name,

@@ -14,6 +14,7 @@
 #include "kernel/formats/hdf5_file.h"
 #include "kernel/formats/output_file.h"
 #include "kernel/formats/unique_names.h"
+#include "kernel/formats/vtu_array.h"
 #include "kernel/formats/xdmf.h"
 #include "kernel/printable.h"
 
@@ -24,26 +25,6 @@ constexpr std::size_t kCellsOfPolygon = 2;  // types up to this say how many poi
 
 std::filesystem::path tables_beside(const std::filesystem::path& file) {
   return std::filesystem::path(file).replace_extension(".h5");
-}
-
-std::string escaped(std::string_view text) {
-  std::string out;
-  for (const char c : printable(text)) {
-    switch (c) {
-      case '&':
-        out += "&amp;";
-        break;
-      case '<':
-        out += "&lt;";
-        break;
-      case '"':
-        out += "&quot;";
-        break;
-      default:
-        out += c;
-    }
-  }
-  return out;
 }
 
 const XdmfType& xdmf_type(const ElementKind& kind) {
@@ -101,11 +82,11 @@ class Writer {
     return fmt::format("<DataItem Dimensions=\"{}{}\" {} Format=\"HDF\">{}:/{}</DataItem>",
                        size / std::max<std::size_t>(columns, 1),
                        columns == 0 ? "" : fmt::format(" {}", columns), kTypes[values.index()],
-                       escaped(tables_name_), escaped(path));
+                       xml_escaped(tables_name_), xml_escaped(path));
   }
 
   void write_mesh() {
-    out_.put(fmt::format("    <Grid Name=\"{}\" GridType=\"Uniform\">\n", escaped(mesh_name_)));
+    out_.put(fmt::format("    <Grid Name=\"{}\" GridType=\"Uniform\">\n", xml_escaped(mesh_name_)));
     std::vector<const ElementList*> cells = lists_.of_dimension(3);
     if (cells.empty()) cells = lists_.of_dimension(2);
     write_topology(cells, "Mesh/" + path_of(mesh_name_) + "/topology");
@@ -120,10 +101,9 @@ class Writer {
     out_.put("    </Grid>\n");
   }
 
-  /// Of paths in HDF5.
-  static std::string path_of(std::string name) {
-    std::replace(name.begin(), name.end(), '/', '_');
-    return name.empty() || name == "." ? "unnamed" : name;
+  /// Of paths in HDF5, which stand in XML: as text, without blanks at the ends.
+  static std::string path_of(const std::string& name) {
+    return fit_name(printable(name), {.slash = '_'});
   }
 
   void write_topology(const std::vector<const ElementList*>& cells, const std::string& path) {
@@ -171,7 +151,7 @@ class Writer {
                                                     : "Matrix";
     out_.put(fmt::format(
         "      <Attribute Name=\"{}\" AttributeType=\"{}\" Center=\"{}\">{}</Attribute>\n",
-        escaped(name), type, center, item(path, values, components)));
+        xml_escaped(name), type, center, item(path, values, components)));
   }
 
   /// All elements of a dimension, if any has a label or they are not those of the mesh.
@@ -188,7 +168,7 @@ class Writer {
     out_.put(fmt::format(
         "    <Grid Name=\"{}\" GridType=\"Uniform\">\n"
         "      <xi:include xpointer=\"xpointer(/Xdmf/Domain/Grid[@Name='{}']/Geometry)\" />\n",
-        escaped(name), escaped(mesh_name_)));
+        xml_escaped(name), xml_escaped(mesh_name_)));
     write_topology(cells, path + "/topology");
     write_attribute(name, "Cell", 1, std::move(labels), path + "/Values");
     out_.put("    </Grid>\n");
@@ -222,8 +202,8 @@ std::vector<std::string> not_in_xdmf(const std::filesystem::path&, const MeshDat
   const ElementLists lists(view);
   for (const ElementList& list : lists.all()) {
     const bool is_only = list.kind.dimension == 3 && lists.of_dimension(3).size() == 1;
-    const bool is_told = list.others == nullptr && list.kind.dimension < 3;
-    if (list.data != nullptr && !is_only && !is_told) lose(*list.data, list.kind.name);
+    if (list.data != nullptr && !is_only && list.kind.dimension == 3)
+      lose(*list.data, list.kind.name);
   }
   return notes;
 }

@@ -196,6 +196,71 @@ TEST_CASE("groups that are called like nodes of a zone are written to CGNS under
   }
 }
 
+TEST_CASE("arrays whose names CGNS has no place for get others that fit, vectors stay whole") {
+  if (!formats::has_hdf5()) return;
+  const TempFolder folder;
+  MeshData mesh;
+  mesh.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  mesh.tets = {{{0, 1, 2, 3}, 3}};
+  const std::string name(32, 'a');
+  mesh.point_data = {{"GridLocation", 1, Reals{1, 2, 3, 4}},
+                     {name + "b", 1, Reals{5, 6, 7, 8}},
+                     {name, 3, Reals(12, 9)},
+                     {"good", 1, Reals(4)}};
+  const std::vector<std::string> lost = not_written(folder / "a.cgns", mesh);
+  CHECK(lost.size() == 3);
+  write_mesh(folder / "a.cgns", mesh);
+  const MeshData again = read_mesh(folder / "a.cgns");
+  const auto values = [&](std::string_view of) {
+    const auto found = std::find_if(again.point_data.begin(), again.point_data.end(),
+                                    [&](const DataArray& array) { return array.name == of; });
+    return found == again.point_data.end() ? DataArray::Values() : found->values;
+  };
+  CHECK(again.point_data.size() == 4);
+  CHECK(values("GridLocation_2") == mesh.point_data[0].values);
+  CHECK(values(name) == mesh.point_data[1].values);
+  CHECK(values(name.substr(1)) == mesh.point_data[2].values);
+}
+
+TEST_CASE("what of a tree of CGNS is not kept is told, each kind of node once") {
+  if (!formats::has_hdf5()) return;
+  const TempFolder folder;
+  SmallCgns small;
+  small.node("Base/Zone/Upper/ParentElements", "DataArray_t", Integers{0, 0});  // said by elements
+  for (const char* section : {"Upper", "Lower"}) {
+    small.node(std::string("Base/Zone/") + section + "/notes", "UserDefinedData_t", Integers{1});
+    small.node(std::string("Base/Zone/") + section + "/notes/more", "DataArray_t", Integers{1});
+  }
+  small.node("Base/Zone/ZoneBC/skin/BCDataSet", "BCDataSet_t", Integers{1});
+  small.node("Base/Units", "DimensionalUnits_t", Integers{1});
+  small.write(folder / "a.cgns");
+  const std::vector<std::string> wanted = {
+      "the node '/Base/Zone/ZoneBC/skin/BCDataSet' is not kept",
+      "the node '/Base/Units' is not kept",
+      "2 nodes of type 'UserDefinedData_t' are not kept, the first is '/Base/Zone/Lower/notes'"};
+  CHECK(read_mesh(folder / "a.cgns").notes == wanted);
+}
+
+TEST_CASE(
+    "a section of polygons is told with what conditions lose, and the family of a zone stays") {
+  if (!formats::has_hdf5()) return;
+  const TempFolder folder;
+  SmallCgns small;
+  small.node("Base/Zone/Polygons", "Elements_t", Integers{22, 0});
+  small.node("Base/Zone/Polygons/ElementRange", "IndexRange_t", Integers{4, 4});
+  small.node("Base/Zone/Polygons/ElementConnectivity", "DataArray_t", Integers{1, 2, 3});
+  small.text("Base/Zone/FamilyName", "FamilyName_t", "fluid");
+  small.skin = {3, 4};
+  small.write(folder / "a.cgns");
+  const MeshData mesh = read_mesh(folder / "a.cgns");
+  const std::vector<std::string> wanted = {
+      "the section 'Polygons' is not kept: 1 elements of CGNS' type 22",
+      "1 of 2 members of the boundary condition 'skin' are not kept: they are in no mesh"};
+  CHECK(mesh.notes == wanted);
+  write_mesh(folder / "b.cgns", mesh);
+  CHECK(read_mesh(folder / "b.cgns").deck == mesh.deck);
+}
+
 TEST_CASE("an older CGNS file of ADF is refused with the program that makes HDF5 of it") {
   const TempFolder folder;
   write_text(folder / "a.cgns", "@(#)ADF Database Version A02011>");

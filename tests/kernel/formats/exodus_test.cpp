@@ -199,8 +199,75 @@ TEST_CASE("variables of Exodus without a step are told, and the mesh is read") {
   CHECK(mesh.tets.size() == 2);
   CHECK(mesh.point_data.empty());
   CHECK(std::any_of(mesh.notes.begin(), mesh.notes.end(), [](const std::string& note) {
-    return note.find("vals_nod_var1' has no step: not kept") != std::string::npos;
+    return note == "the variables are not kept: they have no step";
   }));
+}
+
+TEST_CASE("points of Exodus without elements come back; points of another netCDF file are refused") {
+  const TempFolder folder;
+  MeshData mesh;
+  mesh.points = {{0, 0, 0}, {1, 2, 3}};
+  write_mesh(folder / "a.e", mesh);
+  CHECK(read_mesh(folder / "a.e").points == mesh.points);
+  std::string bytes = read_text(folder / "a.e");
+  bytes[bytes.find("api_version")] = 'b';
+  write_text(folder / "a.e", bytes);
+  CHECK(error_of_reading(folder / "a.e").find("the file has no elements") != std::string::npos);
+}
+
+TEST_CASE("of the steps of a variable of Exodus the first is read, and no other is looked at") {
+  const TempFolder folder;
+  SmallExodus().write(folder / "a.e");
+  std::string bytes = read_text(folder / "a.e");
+  bytes[7] = 3;  // how many steps there are; the second one ends too early, the third is not there
+  write_text(folder / "a.e", bytes + std::string(20, '\x41'));
+  const MeshData mesh = read_mesh(folder / "a.e");
+  REQUIRE(mesh.point_data.size() == 1);
+  CHECK(mesh.point_data[0] == DataArray{"p", 1, Reals{1, 2, 3, 4, 5}});
+}
+
+TEST_CASE("names of up to 255 bytes come back whole from Exodus, longer ones are told") {
+  const TempFolder folder;
+  MeshData mesh = awkward_mesh();
+  mesh.groups.clear();
+  const std::size_t count = mesh.points.size();
+  const std::string long_name(100, 'n');
+  mesh.point_data = {{long_name + "1", 1, Reals(count, 1)}, {long_name + "2", 3, Reals(3 * count)}};
+  mesh.tet_data = {{std::string(300, 't') + "1", 1, Reals(mesh.tets.size(), 1)},
+                   {std::string(300, 't') + "2", 1, Reals(mesh.tets.size(), 2)}};
+  Group tips;
+  tips.dimension = 0;
+  tips.name = long_name;
+  tips.number = 3;
+  tips.members = {0};
+  mesh.groups = {tips};
+  write_mesh(folder / "a.e", mesh);
+  const MeshData again = read_mesh(folder / "a.e");
+  CHECK(again.point_data == mesh.point_data);
+  CHECK(find_group(again, long_name) != nullptr);
+  REQUIRE(again.tet_data.size() == 2);
+  CHECK(again.tet_data[0].name == std::string(255, 't'));
+  CHECK(again.tet_data[1].name == std::string(253, 't') + "_2");
+  CHECK(again.tet_data[1].values == mesh.tet_data[1].values);
+  const std::vector<std::string> lost = not_written(folder / "a.e", mesh);
+  CHECK(std::count_if(lost.begin(), lost.end(), [](const std::string& note) {
+          return note.find("is not kept as it is") != std::string::npos;
+        }) == 2);
+}
+
+TEST_CASE("arrays of faces, which Exodus has no place for, are told, whatever the faces are") {
+  const TempFolder folder;
+  MeshData mesh = awkward_mesh();
+  mesh.triangle_data = {{"of triangles", 1, Reals(mesh.triangles.size())}};
+  mesh.edge_data = {{"of edges", 1, Reals(mesh.edges.size())}};
+  mesh.other_elements = {{9, 4, {0, 1, 2, 3}, {4}, {}, {}, {{"of quads", 1, Reals{1}}}}};
+  std::string lost;
+  for (const std::string& note : not_written(folder / "a.e", mesh)) lost += note + '\n';
+  CHECK(lost.find("'of triangles' of triangles is not kept") != std::string::npos);
+  CHECK(lost.find("'of quads' of quadrilateral is not kept") != std::string::npos);
+  CHECK(lost.find("of edges") == std::string::npos);
+  write_mesh(folder / "a.e", mesh);
+  CHECK(read_mesh(folder / "a.e").edge_data == mesh.edge_data);
 }
 
 TEST_CASE("a file of Exodus with any byte changed, or cut anywhere, is an error or a sound mesh") {

@@ -111,6 +111,36 @@ TEST_CASE("older models of FEBio with sets of tags and pins outside of the mesh 
   CHECK(read_mesh(folder / "b.feb").groups == mesh.groups);
 }
 
+TEST_CASE("elements of FEBio that say type and material by themselves come back so") {
+  const TempFolder folder;
+  std::string text = altered(model_text(), "<Elements type=\"tet4\" name=\"Part1\">", "<Elements>");
+  text = altered(text, "<elem id=\"1\">1,2,3,7</elem>",
+                 "<tet4 id=\"1\" mat=\"4\">1,2,3,7</tet4>\n"
+                 "\t\t\t<tet4 id=\"3\" mat=\"2\">1,2,7,9</tet4>");
+  const MeshData mesh = read_model(folder, text);
+  REQUIRE(mesh.tets.size() == 3);
+  CHECK(mesh.tets[0].label == 4);
+  CHECK(mesh.tets[1].label == 2);
+  CHECK(mesh.tets[2].label == 1);  // the block's own, which no material has
+  write_mesh(folder / "b.feb", mesh);
+  CHECK(read_mesh(folder / "b.feb").tets == mesh.tets);
+  CHECK(test::read_text(folder / "b.feb").find("<tet4 id=\"3\" mat=\"2\">1,2,7,9</tet4>") !=
+        std::string::npos);
+  write_text(folder / "a.feb", altered(text, " mat=\"2\"", ""));
+  CHECK(error_of_reading(folder / "a.feb").find("expected the id of a material") !=
+        std::string::npos);
+}
+
+TEST_CASE(
+    "members of a set of nodes of FEBio that are no nodes are told where it is written anew") {
+  const TempFolder folder;
+  const std::string text =
+      altered(model_text(), "<n id=\"9\"/>",
+              "<n id=\"1\"/><n id=\"2\"/><n id=\"3\"/><n id=\"7\"/><n id=\"99\"/>");
+  CHECK(read_model(folder, text).notes ==
+        std::vector<std::string>{"1 members of the set 'Held' are not kept: they are no nodes"});
+}
+
 TEST_CASE("second order of FEBio is kept") {
   const TempFolder folder;
   std::string text = "<febio_spec version=\"4.0\"><Mesh><Nodes>";

@@ -220,6 +220,54 @@ TEST_CASE("wide fields of LS-DYNA are read and written") {
   CHECK(read_mesh(folder / "b.k").point_numbers == mesh.point_numbers);
 }
 
+TEST_CASE("long fields of a deck of LS-DYNA, or of one keyword, are read and written") {
+  const auto wide = [](std::initializer_list<std::string_view> fields, std::size_t width) {
+    std::string line;
+    for (const std::string_view field : fields)
+      line += std::string(width - field.size(), ' ') + std::string(field);
+    return line + "\n";
+  };
+  const auto nodes = [&](const std::string& keyword, std::size_t first, std::size_t others) {
+    std::string text = "*NODE" + keyword + "\n";
+    for (const char* const node : {"1 0 0 0 0", "2 1 0 0 0", "3 0 1 0 7", "4 0 0 1 0"}) {
+      std::string_view left = node;
+      for (std::size_t k = 0; k < 5; ++k) {
+        text += wide({left.substr(0, 1)}, k == 0 || k == 4 ? first : others);
+        text.pop_back();
+        left.remove_prefix(std::min<std::size_t>(2, left.size()));
+      }
+      text += "\n";
+    }
+    return text;
+  };
+  const auto sets = [&](const std::string& keyword, std::size_t width) {
+    return "*SET_NODE_LIST" + keyword + "\n" + wide({"5"}, width) +
+           wide({"1", "2", "3", "4"}, width);
+  };
+  const std::string solids = "*ELEMENT_SOLID\n1,1,1,2,3,4,4,4,4,4\n";
+  const std::string end = "*END\n";
+  const std::vector<std::string> decks = {
+      "*KEYWORD LONG=Y\n" + nodes("", 20, 20) + solids + sets("", 20) + end,
+      "*KEYWORD\n" + nodes(" +", 20, 20) + solids + sets("  +", 20) + end,
+      "*KEYWORD\n" + nodes(" %", 10, 16) + solids + sets("", 10) + end,
+      "*KEYWORD LONG=Y\n" + nodes(" -", 8, 16) + solids + sets(" -", 10) + end};
+  for (const std::string& deck : decks) {
+    CAPTURE(deck);
+    const TempFolder folder;
+    const MeshData mesh = read_deck(folder, deck);
+    REQUIRE(mesh.tets.size() == 1);
+    CHECK(mesh.points[2] == Point(0, 1, 0));
+    CHECK(mesh.required_vertices == std::vector<std::uint32_t>{2});
+    REQUIRE(mesh.groups.size() == 1);
+    CHECK(mesh.groups[0].members.size() == 4);
+    write_mesh(folder / "b.k", mesh);
+    const MeshData again = read_mesh(folder / "b.k");
+    CHECK(again.points == mesh.points);
+    CHECK(again.groups == mesh.groups);
+    CHECK(again.required_vertices == mesh.required_vertices);
+  }
+}
+
 TEST_CASE("numbers of LS-DYNA that are wider than their fields are written between commas") {
   const TempFolder folder;
   const std::string text =
@@ -284,7 +332,9 @@ TEST_CASE("a bad deck of LS-DYNA is refused with line and reason") {
        "23: ", "the element is none of 4, 5, 6, 8 or 10 nodes"},
       {"solid twice", edited(good, "       2       5\n", "       1       5\n"),
        "23: ", "the number '1' of a solid appears for the second time"},
-      {"long", edited(good, "*NODE\n", "*NODE +\n"), "12: ", "expected LONG=Y"},
+      {"include", "*KEYWORD\n*INCLUDE\nmesh.k\n*END\n", "3: ", "the mesh of 'mesh.k'"},
+      {"other solids", edited(good, "*ELEMENT_SOLID\n", "*ELEMENT_SOLID_ORTHO\n"),
+       "21: ", "solids of *ELEMENT_SOLID_ORTHO cannot be read"},
   };
   const TempFolder folder;
   for (const BadFile& bad : files) {

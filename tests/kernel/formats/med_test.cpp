@@ -168,10 +168,30 @@ TEST_CASE("labels without groups become groups of MED, which are labels when the
   CHECK(again.point_labels == mesh.point_labels);
   REQUIRE(find_group(again, "first") != nullptr);
   CHECK(find_group(again, "first")->parts.size() == 1);
-  REQUIRE(find_group(again, std::string(76, 'x')) != nullptr);
+  REQUIRE(find_group(again, std::string(80, 'x')) != nullptr);
   const std::vector<std::string> lost = not_written(folder / "a.med", mesh);
   REQUIRE(lost.size() == 1);
   CHECK(lost[0].starts_with("names of groups are not kept as they are"));
+}
+
+TEST_CASE("fields of MED have 64 bytes of name at most, groups 80, and all of them are different") {
+  if (!formats::has_hdf5()) return;
+  const TempFolder folder;
+  MeshData mesh;
+  mesh.points = {Point(0, 0, 0), Point(1, 0, 0), Point(0, 1, 0), Point(0, 0, 1)};
+  mesh.tets = {{{0, 1, 2, 3}, 1}};
+  const std::string name(70, 'f');
+  mesh.point_data = {{name + "1", 1, std::vector<double>{1, 2, 3, 4}},
+                     {name + "2", 2, std::vector<double>(8, 5)}};
+  const std::string cut(80, 'g');
+  mesh.groups = {{3, 1, cut, {}, {0}}, {3, 2, cut + "a", {}, {0}}, {3, 3, cut + "b", {}, {0}}};
+  write_mesh(folder / "a.med", mesh);
+  const MeshData again = read_mesh(folder / "a.med");
+  REQUIRE(again.point_data.size() == 2);
+  CHECK(again.point_data[1].name == std::string(64, 'f'));
+  CHECK(again.point_data[0].name == std::string(62, 'f') + "_2");
+  for (const std::string& group : {cut, std::string(78, 'g') + "_2", std::string(78, 'g') + "_3"})
+    CHECK(find_group(again, group) != nullptr);
 }
 
 TEST_CASE("tables of MED that make no sense are refused with the table and the reason") {

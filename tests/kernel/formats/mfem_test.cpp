@@ -132,6 +132,7 @@ TEST_CASE("a bad mesh of MFEM is refused with line and reason") {
       {"name", changed(good, "\"wall\"", "wall"), "26: ", "'wall' is not a name in quotes"},
       {"text", changed(good, "0 0 1.5", "0 0 x"), "34: ", "'x' is not a number"},
       {"missing", changed(good, "boundary\n2", "bundary\n2"), "19: ", "'bundary' is not expected"},
+      {"cut", good.substr(0, good.find("boundary")), "", "no vertices follow the elements"},
       {"huge", changed(good, "vertices\n5", "vertices\n500000000"), "", "cannot fit"},
       {"cubic", curved_text("H1_3D_P3"), "19: ", "nodes of 'H1_3D_P3' cannot be read"},
       {"discontinuous", curved_text("L2_T1_3D_P1"), "19: ", "cannot be read"},

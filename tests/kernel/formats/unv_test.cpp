@@ -2,7 +2,10 @@
 // Universal files: numbers, groups of any dimension, beams and shells, what is kept word for word.
 #include "kernel/formats/unv.h"
 
+#include <algorithm>
+
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 
 #include "tests/kernel/formats/damage.h"
 #include "tests/kernel/formats/fixtures.h"
@@ -140,6 +143,22 @@ TEST_CASE("older datasets of a universal file are read") {
     CAPTURE(name);
     CHECK(read_unv_text(folder, with(text, "  2467\n", "  " + std::string(name) + "\n")).groups ==
           read_unv_text(folder, unv_text()).groups);
+  }
+}
+
+TEST_CASE("groups of a universal file come back in the dataset that they came in") {
+  const TempFolder folder;
+  for (const char* name : {"2435", "2452", "2477", "2467"}) {
+    const MeshData mesh =
+        read_unv_text(folder, with(unv_text(), "  2467\n", fmt::format("  {}\n", name)));
+    CHECK(mesh.groups.size() == read_unv_text(folder, unv_text()).groups.size());
+    write_mesh(folder / "b.unv", mesh);
+    CHECK(read_text(folder / "b.unv").find(fmt::format("  {}\n", name)) != std::string::npos);
+    CHECK(read_mesh(folder / "b.unv").deck == mesh.deck);
+    const std::vector<std::string> lost = not_written(folder / "b.msh", mesh);
+    CHECK(std::count(lost.begin(), lost.end(),
+                     "1 pieces of a deck, all that is no mesh, are not "
+                     "kept: .msh has no place for them") == 1);
   }
 }
 

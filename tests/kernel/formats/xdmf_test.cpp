@@ -98,6 +98,21 @@ TEST_CASE("an XDMF file comes back with its grids of tags under their names") {
   }
 }
 
+TEST_CASE("arrays whose names are no text, or end in blanks, have tables that XDMF finds again") {
+  if (!formats::has_hdf5()) return;
+  const TempFolder folder;
+  write_text(folder / "a.xdmf", small_xdmf());
+  MeshData mesh = read_mesh(folder / "a.xdmf");
+  mesh.point_data.clear();
+  for (const char* name : {"\xe9q", "\xc3\xa9q", "T ", " T", "a/b", "a_b", ".", "..", "x\ny"})
+    mesh.point_data.push_back({name, 1, std::vector<double>(5, mesh.point_data.size())});
+  write_mesh(folder / "b.xdmf", mesh);
+  const MeshData again = read_mesh(folder / "b.xdmf");
+  REQUIRE(again.point_data.size() == mesh.point_data.size());
+  for (std::size_t k = 0; k < mesh.point_data.size(); ++k)
+    CHECK(again.point_data[k].values == mesh.point_data[k].values);
+}
+
 TEST_CASE("XDMF that makes no sense is refused with file, line and reason") {
   struct Case {
     std::string_view what, by, error;
@@ -105,11 +120,13 @@ TEST_CASE("XDMF that makes no sense is refused with file, line and reason") {
   const std::vector<Case> bad = {
       {"0 2 1 4", "0 2 1", "a.xdmf:7: the numbers end within a cell"},
       {"0 2 1 4", "0 2 1 x", "a.xdmf:7: 'x' is not a number"},
-      {"\"XYZ\"", "\"XY\"", "a.xdmf:9: the geometry 'XY' cannot be read: expected XYZ"},
+      {"\"XYZ\"", "\"XY\"", "a.xdmf:9: the geometry 'XY' cannot be read: expected XYZ or X_Y_Z"},
       {"0 0 -1<", "0 0<", "a.xdmf:10: 14 numbers are not three for each point"},
       {"0 0 -1<", "0 0 nan<", "a.xdmf:10: a coordinate of point 5 is not finite"},
       {"\"Tetrahedron\"", "\"Tetrahedron_99\"", "a.xdmf:6: cells of type 'tetrahedron_99'"},
-      {"Format=\"XML\"", "Format=\"Binary\"", "a.xdmf:7: data of format 'Binary' cannot be read"},
+      {"Format=\"XML\"", "Format=\"TIFF\"", "a.xdmf:7: data of format 'TIFF' cannot be read"},
+      {"Format=\"XML\"", "Format=\"Binary\" Precision=\"3\"",
+       "a.xdmf:7: binary data of type 'int' and 3 bytes cannot be read"},
       {"NumberOfElements=\"2\"", "NumberOfElements=\"3\"",
        "a.xdmf:6: 2 cells are here: expected 3"},
       {"NumberOfElements=\"2\"", "BaseOffset=\"1\"", "a.xdmf:6: points that do not count from 0"},
@@ -130,6 +147,34 @@ TEST_CASE("XDMF that makes no sense is refused with file, line and reason") {
     write_text(folder / "a.xdmf", replaced(small_xdmf(), each.what, each.by));
     CHECK(error_of_reading(folder / "a.xdmf").starts_with(each.error));
   }
+}
+
+TEST_CASE("points of XDMF axis by axis, and numbers of a binary file, are read as any others") {
+  const TempFolder folder;
+  write_text(folder / "a.xdmf", small_xdmf());
+  const MeshData mesh = read_mesh(folder / "a.xdmf");
+  std::string text = replaced(small_xdmf(), "GeometryType=\"XYZ\"", "GeometryType=\"X_Y_Z\"");
+  text = replaced(text,
+                  "<DataItem Dimensions=\"5 3\" Format=\"XML\">0 0 0  1 0 0  0 1 0  0 0 1  0 0 -1",
+                  "<DataItem Dimensions=\"5\" Format=\"XML\">0 1 0 0 0</DataItem>\n"
+                  "<DataItem Dimensions=\"5\" Format=\"XML\">0 0 1 0 0</DataItem>\n"
+                  "<DataItem Dimensions=\"5\" Format=\"XML\">0 0 0 1 -1");
+  write_text(folder / "b.xdmf", text);
+  CHECK(read_mesh(folder / "b.xdmf").points == mesh.points);
+  write_text(folder / "b.xdmf", replaced(text, "0 0 0 1 -1", "0 0 0 1"));
+  CHECK(error_of_reading(folder / "b.xdmf").find("the axes have different lengths") !=
+        std::string::npos);
+  std::string bytes(3, 'x');  // before the numbers, the highest byte of which comes first
+  for (const char vertex : {0, 1, 2, 3, 0, 2, 1, 4}) bytes += std::string(3, '\0') + vertex;
+  write_text(folder / "cells.bin", bytes);
+  const std::string binary =
+      replaced(small_xdmf(), "NumberType=\"Int\" Format=\"XML\">0 1 2 3  0 2 1 4",
+               "NumberType=\"Int\" Format=\"Binary\" Endian=\"Big\" Seek=\"3\">cells.bin");
+  write_text(folder / "c.xdmf", binary);
+  CHECK(read_mesh(folder / "c.xdmf").tets == mesh.tets);
+  write_text(folder / "cells.bin", bytes.substr(0, 34));
+  CHECK(error_of_reading(folder / "c.xdmf").find("cannot fit into the 34 bytes of") !=
+        std::string::npos);
 }
 
 TEST_CASE("grids that lie in each other without end are refused, and point elements are told") {

@@ -1,55 +1,22 @@
 // SPDX-License-Identifier: MIT
-// Files of HDF5 in memory.
-#include "kernel/formats/hdf5_file.h"
-
+// Reads files of HDF5 in memory.
 #include <algorithm>
-#include <array>
-#include <cstring>
-#include <mutex>
 #include <new>
 #include <optional>
-#include <type_traits>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "kernel/error.h"
+#include "kernel/formats/hdf5_file.h"
 #include "kernel/formats/hdf5_handle.h"
 #include "kernel/printable.h"
 
 namespace tetmend::formats {
 namespace {
 
-/// HDF5 as Debian builds it is for one thread at a time; and what goes wrong is told by us.
-class Hdf5Turn {
- public:
-  Hdf5Turn() : lock_(mutex()) {
-    H5Eget_auto2(H5E_DEFAULT, &print_, &to_);
-    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
-  }
-  ~Hdf5Turn() { H5Eset_auto2(H5E_DEFAULT, print_, to_); }
-  Hdf5Turn(const Hdf5Turn&) = delete;
-  Hdf5Turn& operator=(const Hdf5Turn&) = delete;
-
- private:
-  static std::mutex& mutex() {
-    static std::mutex only;
-    return only;
-  }
-
-  std::lock_guard<std::mutex> lock_;
-  H5E_auto2_t print_ = nullptr;
-  void* to_ = nullptr;
-};
-
 /// What zlib packs best, and a little room: a table unpacks to no more times the bytes of the file.
 constexpr std::uint64_t kMostUnpacked = 1100;
-
-/// A name that no file can have, for HDF5 wants to know that there is none.
-constexpr const char* kInMemory = "/dev/null/hdf5";
-
-/// Groups know in which order they were filled, for MED asks for the n-th of what they hold.
-constexpr unsigned kInOrder = H5P_CRT_ORDER_TRACKED | H5P_CRT_ORDER_INDEXED;
 
 class MemoryReader final : public Hdf5Reader {
  public:
@@ -106,16 +73,13 @@ class MemoryReader final : public Hdf5Reader {
   }
 
   DataArray::Values values(const std::string& path) const override {
-    const Table table = open_table(path);
-    const Hdf5Handle type(H5Dget_type(table.set), H5Tclose);
-    const std::size_t size = H5Tget_size(type);
-    const bool has_sign = H5Tget_sign(type) == H5T_SGN_2;
-    if (H5Tget_class(type) == H5T_INTEGER) {
-      if (size < 4 + (has_sign ? 1U : 0U)) return numbers<std::int32_t>(path, table);
-      if (size < 8 + (has_sign ? 1U : 0U)) return numbers<std::int64_t>(path, table);
-    }
-    if (H5Tget_class(type) == H5T_FLOAT && size <= 4) return numbers<float>(path, table);
-    return numbers<double>(path, table);
+    return values(path, open_table(path));
+  }
+  DataArray::Values row(const std::string& path, std::uint64_t number) const override {
+    Table table = open_table(path);
+    table.row = number;
+    table.count /= static_cast<std::size_t>(table.extents[0]);
+    return values(path, table);
   }
   std::vector<std::int64_t> integers(const std::string& path) const override {
     const Table table = open_table(path);
@@ -144,14 +108,7 @@ class MemoryReader final : public Hdf5Reader {
     }
     const bool is_row = H5Tget_class(type) == H5T_INTEGER || table.extents.size() > 1;
     if (width == 1 && is_row) width = static_cast<std::size_t>(table.extents.back());
-    std::vector<std::string> rows;
-    for (std::size_t at = 0; width > 0 && at < all.size(); at += width) {
-      std::string row = all.substr(at, width);
-      row.resize(std::min(row.find('\0'), row.size()));
-      row.resize(row.find_last_not_of(' ') + 1);
-      rows.push_back(std::move(row));
-    }
-    return rows;
+    return text_rows(all, width);
   }
 
   bool has(const std::string& path, const char* attribute) const override {
@@ -188,14 +145,16 @@ class MemoryReader final : public Hdf5Reader {
   }
 
   [[noreturn]] void fail(const std::string& path, std::string_view reason) const override {
-    throw Error(fmt::format("{}: '{}': {}", input_.name(), printable("/" + path, 200), reason));
+    throw Error(fmt::format("{}: '{}': {}", input_.name(),
+                            printable(path == "/" ? path : "/" + path, 200), reason));
   }
 
  private:
   struct Table {
     Hdf5Handle set;
     std::vector<hsize_t> extents;
-    std::size_t count;  // of numbers
+    std::size_t count;                // of numbers
+    std::optional<hsize_t> row = {};  // all if there is none
   };
 
   static hid_t open(const InputFile& input) {
@@ -236,7 +195,11 @@ class MemoryReader final : public Hdf5Reader {
     const bool is_packed = layout == H5D_CHUNKED;
     const std::uint64_t stored =
         std::min<std::uint64_t>(H5Dget_storage_size(table.set), input_.size());
-    std::uint64_t room = (is_packed ? stored * kMostUnpacked : stored) / bytes_each;
+    // Where nothing is stored all numbers have the value that was agreed on for these.
+    const std::uint64_t of_bytes = stored == 0 ? input_.size()
+                                   : is_packed ? stored * kMostUnpacked
+                                               : stored;
+    std::uint64_t room = of_bytes / bytes_each;
     table.count = 1;
     if (std::find(table.extents.begin(), table.extents.end(), 0) != table.extents.end()) {
       table.count = 0;
@@ -252,14 +215,36 @@ class MemoryReader final : public Hdf5Reader {
     }
   }
 
+  DataArray::Values values(const std::string& path, const Table& table) const {
+    const Hdf5Handle type(H5Dget_type(table.set), H5Tclose);
+    const std::size_t size = H5Tget_size(type);
+    const bool has_sign = H5Tget_sign(type) == H5T_SGN_2;
+    if (H5Tget_class(type) == H5T_INTEGER) {
+      if (size < 4 + (has_sign ? 1U : 0U)) return numbers<std::int32_t>(path, table);
+      if (size < 8 + (has_sign ? 1U : 0U)) return numbers<std::int64_t>(path, table);
+    }
+    if (H5Tget_class(type) == H5T_FLOAT && size <= 4) return numbers<float>(path, table);
+    return numbers<double>(path, table);
+  }
+
   template <class Number>
   std::vector<Number> numbers(const std::string& path, const Table& table) const {
     const Hdf5Handle type(H5Dget_type(table.set), H5Tclose);
     const H5T_class_t kind = H5Tget_class(type);
     if (kind != H5T_INTEGER && kind != H5T_FLOAT) fail(path, "the table holds no numbers");
     std::vector<Number> all(table.count);
-    if (!all.empty() &&
-        H5Dread(table.set, hdf5_type<Number>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, all.data()) < 0) {
+    if (all.empty()) return all;
+    const Hdf5Handle from(H5Dget_space(table.set), H5Sclose);
+    const hsize_t size = all.size();
+    const Hdf5Handle to(H5Screate_simple(1, &size, nullptr), H5Sclose);
+    if (table.row) {
+      std::vector<hsize_t> begin(table.extents.size(), 0);
+      std::vector<hsize_t> counts = table.extents;
+      begin[0] = *table.row;
+      counts[0] = 1;
+      H5Sselect_hyperslab(from, H5S_SELECT_SET, begin.data(), nullptr, counts.data(), nullptr);
+    }
+    if (H5Dread(table.set, hdf5_type<Number>(), to, from, H5P_DEFAULT, all.data()) < 0) {
       fail(path, "the table cannot be read");
     }
     return all;
@@ -292,139 +277,10 @@ class MemoryReader final : public Hdf5Reader {
   Hdf5Handle file_;
 };
 
-class MemoryWriter final : public Hdf5Writer {
- public:
-  explicit MemoryWriter(std::string name)
-      : name_(std::move(name)),
-        in_order_(H5Pcreate(H5P_GROUP_CREATE), H5Pclose),
-        file_(std::in_place, create(), H5Fclose) {
-    H5Pset_obj_track_times(in_order_, false);
-    H5Pset_link_creation_order(in_order_, kInOrder);
-    check(file_->is_open());
-  }
-
-  void group(const std::string& path) override {
-    for (std::size_t end = 0; end != std::string::npos;) {
-      end = path.find('/', end + 1);
-      const std::string part = path.substr(0, end);
-      if (H5Lexists(*file_, part.c_str(), H5P_DEFAULT) > 0) continue;
-      const Hdf5Handle made(H5Gcreate2(*file_, part.c_str(), H5P_DEFAULT, in_order_, H5P_DEFAULT),
-                            H5Gclose);
-      check(made.is_open());
-    }
-  }
-
-  void write(const std::string& path, const DataArray::Values& values,
-             std::size_t columns) override {
-    std::visit(
-        [&](const auto& numbers) {
-          using Number = typename std::decay_t<decltype(numbers)>::value_type;
-          const std::array<hsize_t, 2> extents = {
-              numbers.size() / std::max<std::size_t>(columns, 1), columns};
-          const Hdf5Handle space(H5Screate_simple(columns == 0 ? 1 : 2, extents.data(), nullptr),
-                                 H5Sclose);
-          write_table(path, hdf5_type<Number>(), space, numbers.data(), numbers.empty());
-        },
-        values);
-  }
-
-  void write_texts(const std::string& path, const std::vector<std::string>& texts,
-                   std::size_t width) override {
-    std::string all;
-    for (const std::string& text : texts) {
-      all += text.substr(0, width);
-      all.append(width - std::min(width, text.size()), '\0');
-    }
-    const hsize_t columns = width;
-    const hsize_t rows = texts.size();
-    const Hdf5Handle type(H5Tarray_create2(H5T_NATIVE_SCHAR, 1, &columns), H5Tclose);
-    const Hdf5Handle space(H5Screate_simple(1, &rows, nullptr), H5Sclose);
-    write_table(path, type, space, all.data(), all.empty());
-  }
-
-  void write_characters(const std::string& path, const std::string& text) override {
-    const hsize_t size = text.size();
-    const Hdf5Handle space(H5Screate_simple(1, &size, nullptr), H5Sclose);
-    write_table(path, H5T_NATIVE_SCHAR, space, text.data(), text.empty());
-  }
-
-  void set(const std::string& path, const char* attribute, const Attribute& value) override {
-    const Hdf5Handle one(H5Screate(H5S_SCALAR), H5Sclose);
-    if (const auto* text = std::get_if<std::string>(&value)) {
-      const Hdf5Handle type(H5Tcopy(H5T_C_S1), H5Tclose);
-      H5Tset_size(type, text->size() + 1);
-      return write_attribute(path, attribute, type, one, text->c_str());
-    }
-    if (const auto* number = std::get_if<std::int32_t>(&value)) {
-      return write_attribute(path, attribute, H5T_NATIVE_INT32, one, number);
-    }
-    write_attribute(path, attribute, H5T_NATIVE_DOUBLE, one, &std::get<double>(value));
-  }
-
-  std::string bytes() override {
-    check(H5Fflush(*file_, H5F_SCOPE_GLOBAL) >= 0);
-    const ssize_t size = H5Fget_file_image(*file_, nullptr, 0);
-    check(size >= 0);
-    std::string all(static_cast<std::size_t>(size), '\0');
-    check(H5Fget_file_image(*file_, all.data(), all.size()) == size);
-    file_.reset();
-    return all;
-  }
-
- private:
-  static hid_t create() {
-    const Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
-    H5Pset_fapl_core(access, std::size_t{1} << 24, false);
-    const Hdf5Handle made(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
-    H5Pset_obj_track_times(made, false);
-    H5Pset_link_creation_order(made, kInOrder);
-    return H5Fcreate(kInMemory, H5F_ACC_TRUNC, made, access);
-  }
-
-  /// In memory nothing but memory can fail.
-  void check(bool done) const {
-    if (!done) throw Error(fmt::format("{}: cannot be written: not enough memory", name_));
-  }
-
-  void write_table(const std::string& path, hid_t type, hid_t space, const void* from,
-                   bool is_empty) {
-    const Hdf5Handle made(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
-    H5Pset_obj_track_times(made, false);
-    H5Pset_fill_time(made, H5D_FILL_TIME_NEVER);
-    if (path.find('/') != std::string::npos) group(path.substr(0, path.rfind('/')));
-    const Hdf5Handle set(
-        H5Dcreate2(*file_, path.c_str(), type, space, H5P_DEFAULT, made, H5P_DEFAULT), H5Dclose);
-    check(set.is_open());
-    check(is_empty || H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, from) >= 0);
-  }
-
-  void write_attribute(const std::string& path, const char* attribute, hid_t type, hid_t space,
-                       const void* from) {
-    const Hdf5Handle made(H5Acreate_by_name(*file_, path.c_str(), attribute, type, space,
-                                            H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
-                          H5Aclose);
-    check(made.is_open() && H5Awrite(made, type, from) >= 0);
-  }
-
-  Hdf5Turn turn_;
-  std::string name_;
-  Hdf5Handle in_order_;  // how groups are made
-  std::optional<Hdf5Handle> file_;
-};
-
-constexpr Hdf5Driver kDriver = {
-    .open = [](const InputFile& file, std::string_view format) -> std::unique_ptr<Hdf5Reader> {
-      return std::make_unique<MemoryReader>(file, format);
-    },
-    .make = [](std::string name) -> std::unique_ptr<Hdf5Writer> {
-      return std::make_unique<MemoryWriter>(std::move(name));
-    }};
-
-[[maybe_unused]] const bool kIsProvided = [] {
-  provide_hdf5(kDriver);
-  return true;
-}();
-
 }  // namespace
+
+std::unique_ptr<Hdf5Reader> open_in_memory(const InputFile& file, std::string_view format) {
+  return std::make_unique<MemoryReader>(file, format);
+}
 
 }  // namespace tetmend::formats

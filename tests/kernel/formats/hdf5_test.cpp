@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+// Files of HDF5: rows of tables, texts.
+#include <doctest/doctest.h>
+
+#include "kernel/formats/hdf5_file.h"
+#include "tests/kernel/formats/fixtures.h"
+
+using namespace tetmend;
+using namespace tetmend::formats;
+using namespace tetmend::test;
+
+TEST_CASE("one row of a table of HDF5 is read, and the others are not") {
+  if (!has_hdf5()) return;
+  const TempFolder folder;
+  const std::filesystem::path path = folder / "a.h5";
+  {
+    const auto made = make_hdf5("a.h5", "HDF5");
+    made->write("steps", std::vector<double>{1, 2, 3, 4, 5, 6}, 3);
+    made->write("list", std::vector<std::int32_t>{7, 8, 9});
+    write_text(path, made->bytes());
+  }
+  const InputFile input(path);
+  const auto file = open_hdf5(input, "HDF5");
+  CHECK(file->row("steps", 0) == DataArray::Values(std::vector<double>{1, 2, 3}));
+  CHECK(file->row("steps", 1) == DataArray::Values(std::vector<double>{4, 5, 6}));
+  CHECK(file->row("list", 2) == DataArray::Values(std::vector<std::int32_t>{9}));
+  CHECK(file->values("steps") == DataArray::Values(std::vector<double>{1, 2, 3, 4, 5, 6}));
+}
+
+TEST_CASE("rows of texts end at the first zero, and without blanks") {
+  using Rows = std::vector<std::string>;
+  CHECK(text_rows(std::string_view("ab\0xcd  ef", 10), 4) == Rows{"ab", "cd", "ef"});
+  CHECK(text_rows("", 4).empty());
+  CHECK(text_rows("abc", 0).empty());
+}
