@@ -293,7 +293,7 @@ const std::vector<Case>& cases() {
        .tets = 48,
        .bad = 5,
        .bad_after = 0,
-       .has_notes = false,
+       .note = "comments behind the fields of points and elements are not kept",
        .written = {"cend\nbegin bulk\n", "psolid,1,1\nmat1,1,2.1e5,,.3\nenddata\n"}},
       {.file = "constrained-by-default.bdf",
        .kind = 'F',
