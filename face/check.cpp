@@ -287,29 +287,29 @@ std::map<std::string, GroupContent> contents_of_groups(const MeshData& mesh, con
   return contents;
 }
 
-/// Names that only one group of this dimension has.
-std::map<std::string, Label> numbers_by_name(const MeshData& mesh, int dimension) {
-  std::map<std::string, Label> numbers;
-  std::set<std::string> twice;
+/// Of the groups of this dimension. Several parts of a deck may have one of the same name each.
+std::map<std::string, std::vector<Label>> numbers_by_name(const MeshData& mesh, int dimension) {
+  std::map<std::string, std::vector<Label>> numbers;
   for (const Group& group : mesh.groups) {
-    if (group.dimension != dimension || group.name.empty()) continue;
-    if (!numbers.try_emplace(group.name, group.number).second) twice.insert(group.name);
+    const bool is_named = group.dimension == dimension && !group.name.empty();
+    if (is_named) numbers[group.name].push_back(group.number);
   }
-  for (const std::string& name : twice) numbers.erase(name);
   return numbers;
 }
 
 /// For each number of a group in `after` the one in `before`, where their names say so. A number
 /// that would mean two things then gets a new one.
 std::map<Label, Label> renumbering(const MeshData& before, const MeshData& after, int dimension) {
-  const std::map<std::string, Label> then = numbers_by_name(before, dimension);
+  const auto then = numbers_by_name(before, dimension);
   std::map<Label, Label> to;
   std::set<Label> taken;
-  for (const auto& [name, number] : numbers_by_name(after, dimension)) {
+  for (const auto& [name, numbers] : numbers_by_name(after, dimension)) {
     const auto found = then.find(name);
-    if (found == then.end()) continue;
-    to[number] = found->second;
-    taken.insert(found->second);
+    if (found == then.end() || found->second.size() != numbers.size()) continue;
+    for (std::size_t k = 0; k < numbers.size(); ++k) {
+      to[numbers[k]] = found->second[k];
+      taken.insert(found->second[k]);
+    }
   }
   Label free = std::numeric_limits<Label>::min();
   for (const Label number : taken) {

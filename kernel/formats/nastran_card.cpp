@@ -105,6 +105,7 @@ void split_fixed(NastranCardText& card, std::string_view line, std::size_t width
 
 void split(NastranCardText& card, std::string_view whole, std::string_view next_name) {
   const std::string_view line = without_comment(whole);
+  if (line.size() < whole.size() && whole[line.size()] == '$') card.has_end_comments = true;
   const std::size_t comma = line.find(',');
   const bool is_free = comma != std::string_view::npos;
   const std::string_view name = is_free ? line.substr(0, comma) : line.substr(0, kSmall);
@@ -250,6 +251,7 @@ void NastranLines::read(NastranCardText& card) {
   card.fields.clear();
   card.comments.clear();
   card.strays.clear();
+  card.has_end_comments = false;
   std::string_view present = line();
   card.name = nastran_name(present);
   card.text = present;

@@ -21,6 +21,7 @@ struct NastranCardText {
   std::vector<std::string_view> fields;    ///< behind the name, trimmed
   std::vector<std::string_view> comments;  ///< lines of these that stand within the card
   std::vector<std::string_view> strays;    ///< continuations that stand elsewhere
+  bool has_end_comments = false;           ///< behind the fields of its lines
 
   std::string_view field(std::size_t i) const { return i < fields.size() ? fields[i] : ""; }
 };

@@ -106,6 +106,7 @@ void NastranPoints::read_point() {
   }
   places_.push_back(card_.text.data());
   if (is_blank(5) && !is_long && system == 0) {
+    lost_comments_ += card_.has_end_comments ? 1 : 0;
     return keep_nastran_comments(card_, mesh_.deck[nastran_cards]);
   }
   mesh_.deck[nastran_points] += card_text();

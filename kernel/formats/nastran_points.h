@@ -72,6 +72,8 @@ class NastranPoints : private NastranCardReader {
     const char* place;  ///< of the card
   };
   const std::vector<Held>& held() const { return held_; }
+  /// Cards that are written anew without the comments behind their fields.
+  std::size_t lost_comments() const { return lost_comments_; }
 
  private:
   void number();
@@ -84,6 +86,7 @@ class NastranPoints : private NastranCardReader {
   MeshData& mesh_;
   std::vector<const char*> places_;  // of their cards
   std::vector<Held> held_;
+  std::size_t lost_comments_ = 0;
   NastranSystems systems_;
   std::int64_t default_system_ = 0;
   std::unordered_map<std::uint32_t, std::int64_t> waiting_;  // not placed yet: their systems

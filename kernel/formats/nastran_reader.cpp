@@ -65,6 +65,11 @@ class Reader : private NastranCardReader {
     label_blank_properties();
     pins_.require(points_, sources_, mesh_);
     note_partial();
+    const std::size_t lost = points_.lost_comments() + lost_comments_;
+    if (lost > 0) {
+      mesh_.notes.push_back(
+          fmt::format("comments behind the fields of points and elements are not kept: {}", lost));
+    }
     mesh_.deck[nastran_greatest] = greatest_numbers();
     mesh_.variant = kNastran;
     return std::move(mesh_);
@@ -123,6 +128,7 @@ class Reader : private NastranCardReader {
   }
   /// Of a card that is written anew.
   void keep_comments() {
+    lost_comments_ += card_.has_end_comments ? 1 : 0;
     if (is_written_) keep_nastran_comments(card_, mesh_.deck[nastran_cards]);
   }
 
@@ -332,6 +338,7 @@ class Reader : private NastranCardReader {
   std::set<std::int64_t> properties_;           // their numbers
   std::map<std::string, std::size_t> partial_;  // elements that leave out nodes, by card
   NastranPins pins_;
+  std::size_t lost_comments_ = 0;  // behind the fields of elements
   std::set<std::string> element_cards_;
 };
 

@@ -487,6 +487,22 @@ TEST_CASE("a deck of Nastran from Windows keeps its line breaks, and gets no oth
         std::count(written.begin(), written.end(), '\r'));
 }
 
+TEST_CASE(
+    "comments behind fields of Nastran stay with cards that stay, and are told where they do not") {
+  const TempFolder folder;
+  const MeshData mesh = read(
+      folder, bulk("CTETRA,1,2,1,2,3,4 $ lost\nCTETRA,2,2,1,2,3,4,5,6,+ $ lost\n+,7,8,9,10 $ too\n"
+                   "GRID,11,,9.,0.,0.,5 $ kept\nCTRIA3,3,1,1,2,3,45. $ kept\nPSOLID,2,1 $ kept\n"));
+  CHECK(mesh.notes == std::vector<std::string>{
+                          "comments behind the fields of points and elements are not kept: 2"});
+  write_mesh(folder / "b.bdf", mesh);
+  const std::string written = test::read_text(folder / "b.bdf");
+  for (const std::string_view line :
+       {"GRID,11,,9.,0.,0.,5 $ kept\n", "CTRIA3,3,1,1,2,3,45. $ kept\n", "PSOLID,2,1 $ kept\n"}) {
+    CHECK(written.find(line) != std::string::npos);
+  }
+}
+
 TEST_CASE("new points and elements of a deck of Nastran get no number that one had before") {
   const TempFolder folder;
   MeshData mesh = read(folder, bulk("CTETRA,5,2,1,2,3,4\nCTETRA,9,2,1,2,3,5\n"));

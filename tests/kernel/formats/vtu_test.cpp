@@ -113,8 +113,9 @@ TEST_CASE("labels are guessed from the only array that could hold them, else ask
   CHECK(doubles.label_array == "colour");
   CHECK(doubles.notes.empty());
   const std::vector<std::int32_t> same(zone.size(), 3);
-  CHECK(read_with({{"one", 1, same}, {"colour", 1, zone}, {"owner", 1, owner}, {"two", 1, same}}, "")
-            .label_array == "owner");
+  CHECK(
+      read_with({{"one", 1, same}, {"colour", 1, zone}, {"owner", 1, owner}, {"two", 1, same}}, "")
+          .label_array == "owner");
   CHECK(read_with({{"vtkProcessId", 1, owner}, {"my_region", 1, region}}, "").label_array ==
         "my_region");
   const MeshData known = read_with({{"ObjectId", 1, region}, {"subdomain_id", 1, owner}}, "");
