@@ -13,6 +13,7 @@
 #include <cmath>
 #include <map>
 #include <set>
+#include <span>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -43,8 +44,12 @@ struct XdmfCells {
     types.push_back(vtk_type);
     ends.push_back(static_cast<std::int64_t>(vertices.size()));
   }
+  std::span<const std::int64_t> of(std::size_t i) const {
+    const auto begin = static_cast<std::size_t>(i == 0 ? 0 : ends[i - 1]);
+    return std::span(vertices).subspan(begin, static_cast<std::size_t>(ends[i]) - begin);
+  }
   Sorted sorted(std::size_t i) const {
-    Sorted all(vertices.begin() + (i == 0 ? 0 : ends[i - 1]), vertices.begin() + ends[i]);
+    Sorted all(of(i).begin(), of(i).end());
     std::sort(all.begin(), all.end());
     return all;
   }
@@ -254,11 +259,20 @@ class Reader {
   /// The row of a cell in all arrays; one that no grid before had goes to the end.
   /// @param before  how many cells these grids have
   std::uint32_t find(const XdmfCells& cells, std::size_t i, std::size_t before) {
-    for (; known_ < before; ++known_) number_of_.emplace(cells_.sorted(known_), known_);
-    const auto found = number_of_.find(cells.sorted(i));
-    if (found != number_of_.end()) return static_cast<std::uint32_t>(found->second);
-    const auto begin = cells.vertices.begin() + (i == 0 ? 0 : cells.ends[i - 1]);
-    cells_.vertices.insert(cells_.vertices.end(), begin, cells.vertices.begin() + cells.ends[i]);
+    const auto vertices = cells.of(i);
+    // Most tags are those of all cells in their order.
+    if (i < before && cells_.types[i] == cells.types[i] &&
+        std::equal(vertices.begin(), vertices.end(), cells_.of(i).begin())) {
+      return static_cast<std::uint32_t>(i);
+    }
+    Known& known = known_[cells.types[i]];
+    for (; known.end < before; ++known.end) {
+      if (cells_.types[known.end] == cells.types[i])
+        known.number_of.emplace(cells_.sorted(known.end), known.end);
+    }
+    const auto found = known.number_of.find(cells.sorted(i));
+    if (found != known.number_of.end()) return static_cast<std::uint32_t>(found->second);
+    cells_.vertices.insert(cells_.vertices.end(), vertices.begin(), vertices.end());
     cells_.add(static_cast<int>(cells.types[i]));
     return static_cast<std::uint32_t>(cells_.types.size() - 1);
   }
@@ -363,8 +377,12 @@ class Reader {
   MeshData mesh_;
   XdmfCells cells_;
   std::size_t mesh_cells_ = 0;  // of these: of the grid of the mesh
-  std::map<Sorted, std::size_t> number_of_;
-  std::size_t known_ = 0;  // cells of these that are in number_of_
+  /// The numbers of cells of one type, up to `end`.
+  struct Known {
+    std::map<Sorted, std::size_t> number_of;
+    std::size_t end = 0;
+  };
+  std::map<std::int64_t, Known> known_;  // by type
   std::vector<Part> tags_, arrays_;
   std::vector<DataArray> point_arrays_;
 };
