@@ -206,8 +206,10 @@ class Dropping {
     return found;
   }
 
+  /// In the file; of an element without one, its place in the list.
   static std::int64_t number_of(const Elements& elements, std::size_t i) {
-    return elements.numbers.empty() ? static_cast<std::int64_t>(i) + 1 : elements.numbers[i];
+    const bool has_number = !elements.numbers.empty() && elements.numbers[i] > 0;
+    return has_number ? elements.numbers[i] : static_cast<std::int64_t>(i) + 1;
   }
 
   /// "tet 49 (vertices 3 3 17 4)"

@@ -92,7 +92,10 @@ class FebioReader : FebioMesh {
     }
     row.label = label;
     for (std::size_t k = 0; k < kind->corners; ++k) row.vertices[k] = point(numbers[k], facet);
+    const std::size_t before = elements_.size();
     set.elements.push_back(faces_.add(row, sorter_, mesh_, elements_));
+    if (elements_.size() > before && is_last_asked_for(question_, mesh_, row.kind->vtk_type))
+      question_->place = file_.line_place(place_of(facet));
   }
 
   /// Where it fills a volume it is written anew; other members stay.

@@ -224,7 +224,10 @@ class LsDynaReader : LsDynaMesh {
       if (!is_set) nastran_integer(field(1), label);
       row.label = static_cast<Label>(std::clamp<std::int64_t>(label, 0, INT32_MAX));
       if (read_face(is_set ? 0 : 2, row)) {
+        const std::size_t before = elements_.size();
         head.set.elements.push_back(faces_.add(row, sorter_, mesh_, elements_));
+        if (elements_.size() > before && is_last_asked_for(question_, mesh_, row.kind->vtk_type))
+          question_->place = file_.line_place(line.data());
       } else {
         ++lost;
       }

@@ -3,6 +3,7 @@
 #include "kernel/formats/med_families.h"
 
 #include <algorithm>
+#include <array>
 
 #include <fmt/format.h>
 
@@ -13,8 +14,20 @@ namespace tetmend::formats {
 MedFamilies::MedFamilies(const MeshData* data, const MedRemarks& remarks)
     : data_(data), remarks_(remarks), is_med_(data != nullptr && data->variant == kMed) {
   if (data == nullptr) return;
+  std::array<UniqueNames, 4> taken;  // by dimension
+  taken.fill(UniqueNames(kMedGroupNames));
   for (const Group& group : data->groups) {
-    if (is_med_name(group.name)) cut_names_.take(group.name);
+    UniqueNames& of_dimension = taken[static_cast<std::size_t>(group.dimension)];
+    std::string& name = names_.emplace_back();
+    if (group.name.empty()) name = label_name(group.number);
+    if (!is_med_name(group.name) || of_dimension.has(group.name)) continue;
+    name = group.name;
+    of_dimension.take(name);
+  }
+  for (std::size_t g = 0; g < names_.size(); ++g) {
+    const Group& group = data->groups[g];
+    if (names_[g].empty())
+      names_[g] = taken[static_cast<std::size_t>(group.dimension)].make_fit(group.name);
   }
 }
 
@@ -76,7 +89,7 @@ std::vector<std::string> MedFamilies::groups_of(const MedFamilyKey& key) {
                                                     key.part) != group.parts.end();
     const bool is_all = is_label && group.parts.empty() && group.members.empty();
     if (has_part || is_all || (!group.members.empty() && chains_.has(key.chain, g))) {
-      names.push_back(cut(group.name.empty() ? label_name(group.number) : group.name));
+      names.push_back(names_[g]);
     }
     is_named = is_named || is_label;
   }
@@ -86,13 +99,6 @@ std::vector<std::string> MedFamilies::groups_of(const MedFamilyKey& key) {
   if (key.label != 0 && !(is_named && key.dimension > 0) && !is_bare)
     names.push_back(label_name(key.label));
   return names;
-}
-
-std::string MedFamilies::cut(const std::string& name) {
-  if (is_med_name(name)) return name;
-  const auto [at, is_new] = cut_.try_emplace(name);
-  if (is_new) at->second = cut_names_.make_fit(name);
-  return at->second;
 }
 
 }  // namespace tetmend::formats

@@ -48,9 +48,6 @@ class MedFamilies {
  private:
   std::vector<std::string> groups_of(const MedFamilyKey& key);
 
-  /// Names that fit, and are still different.
-  std::string cut(const std::string& name);
-
   const MeshData* data_;
   const MedRemarks& remarks_;
   bool is_med_;
@@ -59,8 +56,7 @@ class MedFamilies {
   std::map<MedFamilyKey, std::uint32_t> place_;
   MedFamilyKey last_;
   std::uint32_t last_place_ = 0;
-  std::map<std::string, std::string> cut_;
-  UniqueNames cut_names_{kMedGroupNames};
+  std::vector<std::string> names_;  // of groups, which fit; no two of one dimension are the same
 };
 
 }  // namespace tetmend::formats

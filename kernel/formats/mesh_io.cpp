@@ -147,6 +147,7 @@ constexpr Room kMedRoom = {.data = true,
                            .second_order = true,
                            .holds = formats::med_holds,
                            .takes_name = formats::is_med_name,
+                           .group_names_are_unique = true,
                            .deck = formats::kMed};
 
 constexpr Room kUnvRoom = {.groups = true,
@@ -186,6 +187,7 @@ constexpr Room kFebioRoom = {.groups = true,
                              .point_labels = false,
                              .edges = false,
                              .holds = formats::febio_holds,
+                             .group_names_are_unique = true,
                              .deck = formats::kFebio};
 
 constexpr Room kExodusRoom = {.data = true,
@@ -210,6 +212,7 @@ constexpr Room kCgnsRoom = {.data = true,
                             .holds = formats::cgns_holds,
                             .takes_name = formats::is_cgns_name,
                             .names_are_unique = true,
+                            .group_names_are_unique = true,
                             .low_labels = false,
                             .deck = formats::kCgns};
 

@@ -129,6 +129,14 @@ void note_groups(const Room& room, const MeshData& mesh, LostNotes& notes) {
   const auto named = std::count_if(mesh.groups.begin(), mesh.groups.end(),
                                    [](const Group& group) { return !group.name.empty(); });
   notes.lost(false, static_cast<std::size_t>(named) - kept.size(), "groups, with their names, are");
+  std::set<std::pair<int, std::string_view>> names;
+  std::size_t twice = 0;
+  for (const Group* group : kept)
+    twice += names.insert({group->dimension, group->name}).second ? 0 : 1;
+  if (room.group_names_are_unique && twice > 0) {
+    notes.sentences.push_back(fmt::format("{} names of groups get a number: {} has each name once",
+                                          twice, notes.extension));
+  }
   const bool is_own = !room.deck.empty() && room.deck == mesh.variant;  // its names are good
   if (room.takes_name == nullptr || is_own) return;
   const auto is_changed = [&](const Group* group) { return !room.takes_name(group->name); };

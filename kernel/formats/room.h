@@ -32,6 +32,7 @@ struct Room {
   bool (*takes_name)(std::string_view name) = nullptr;
   bool names_are_text = false;    ///< of arrays: printable()
   bool names_are_unique = false;  ///< of arrays of one kind of element: it has the first of a name
+  bool group_names_are_unique = false;  ///< of one dimension: others get a number behind them
   bool periodic = false;
   bool low_labels = true;  ///< below 1
   /// Arrays whose names begin so are its own.

@@ -28,27 +28,11 @@
 #include "kernel/formats/text_reader.h"
 #include "kernel/formats/vtk_cells.h"
 #include "kernel/formats/xdmf.h"
+#include "kernel/formats/xdmf_cells.h"
 #include "kernel/formats/xdmf_items.h"
 
 namespace tetmend::formats {
 namespace {
-
-using Sorted = std::vector<std::int64_t>;
-
-/// Cells of a grid, one after the other.
-struct XdmfCells {
-  std::vector<std::int64_t> types, vertices, ends;
-
-  void add(int vtk_type) {
-    types.push_back(vtk_type);
-    ends.push_back(static_cast<std::int64_t>(vertices.size()));
-  }
-  Sorted sorted(std::size_t i) const {
-    Sorted all(vertices.begin() + (i == 0 ? 0 : ends[i - 1]), vertices.begin() + ends[i]);
-    std::sort(all.begin(), all.end());
-    return all;
-  }
-};
 
 class Reader {
  public:
@@ -63,7 +47,7 @@ class Reader {
     collect(document_.child("Xdmf").child("Domain"));
     find_mesh();
     read_points();
-    cells_ = read_cells(mesh_grid_.child("Topology"));
+    cells_ = read_xdmf_cells(items_, mesh_grid_.child("Topology"));
     mesh_cells_ = cells_.types.size();
     for (const pugi::xml_node grid : grids_) read_attributes(grid);
     adopt();
@@ -167,50 +151,6 @@ class Reader {
     return all;
   }
 
-  const XdmfType* type_of(const pugi::xml_node& topology, const std::string& name,
-                          std::int64_t number) const {
-    const auto found = std::find_if(kXdmfTypes.begin(), kXdmfTypes.end(), [&](const auto& type) {
-      return name.empty() ? type.number == number : type.name == name || type.other == name;
-    });
-    if (found != kXdmfTypes.end()) return &*found;
-    fail(topology, fmt::format("cells of type {} cannot be read",
-                               name.empty() ? fmt::format("{}", number) : in_quotes(name)));
-  }
-
-  XdmfCells read_cells(const pugi::xml_node& topology) {
-    const std::string name = xdmf_lower_case(
-        topology.attribute("TopologyType").as_string(topology.attribute("Type").as_string()));
-    const pugi::xml_node item = items_.item_of(topology);
-    const std::vector<std::int64_t> all = items_.integers(item);
-    XdmfCells cells;
-    if (topology.attribute("BaseOffset").as_llong(0) != 0)
-      fail(topology, "points that do not count from 0 cannot be read: expected no BaseOffset");
-    const XdmfType* type = name == "mixed" ? nullptr : type_of(topology, name, 0);
-    for (std::size_t at = 0; at < all.size();) {
-      const XdmfType* of_cell = type != nullptr ? type : type_of(topology, {}, all[at++]);
-      const std::size_t width = element_kind(of_cell->vtk_type)->width;
-      if (type == nullptr && of_cell->number <= 2) {  // how many points a line has
-        if (at < all.size() && all[at] != static_cast<std::int64_t>(width))
-          fail(item, fmt::format("lines of {} points cannot be read: expected {}", all[at], width));
-        ++at;
-      }
-      if (at > all.size() || width > all.size() - at) fail(item, "the numbers end within a cell");
-      for (std::size_t k = 0; k < width; ++k) cells.vertices.push_back(all[at++]);
-      cells.add(of_cell->vtk_type);
-    }
-    const pugi::xml_attribute width = topology.attribute("NodesPerElement");
-    if (type != nullptr && width && width.as_ullong() != element_kind(type->vtk_type)->width) {
-      fail(topology, fmt::format("cells of {} points cannot be read: expected {}",
-                                 width.as_ullong(), element_kind(type->vtk_type)->width));
-    }
-    const pugi::xml_attribute count = topology.attribute("NumberOfElements");
-    if (count && count.as_ullong() != cells.types.size()) {
-      fail(topology,
-           fmt::format("{} cells are here: expected {}", cells.types.size(), count.as_ullong()));
-    }
-    return cells;
-  }
-
   // ---- Attributes ---------------------------------------------------------------------------------
 
   /// Of the mesh, or of a grid of some of its cells, faces and edges.
@@ -224,7 +164,7 @@ class Reader {
       return;
     }
     if (has_cells) {
-      const XdmfCells cells = read_cells(grid.child("Topology"));
+      const XdmfCells cells = read_xdmf_cells(items_, grid.child("Topology"));
       const std::size_t before = cells_.types.size();
       for (std::size_t i = 0; i < cells.types.size(); ++i) rows.push_back(find(cells, i, before));
       if (!cells.types.empty()) remember(grid, static_cast<int>(cells.types[0]));
@@ -254,11 +194,20 @@ class Reader {
   /// The row of a cell in all arrays; one that no grid before had goes to the end.
   /// @param before  how many cells these grids have
   std::uint32_t find(const XdmfCells& cells, std::size_t i, std::size_t before) {
-    for (; known_ < before; ++known_) number_of_.emplace(cells_.sorted(known_), known_);
-    const auto found = number_of_.find(cells.sorted(i));
-    if (found != number_of_.end()) return static_cast<std::uint32_t>(found->second);
-    const auto begin = cells.vertices.begin() + (i == 0 ? 0 : cells.ends[i - 1]);
-    cells_.vertices.insert(cells_.vertices.end(), begin, cells.vertices.begin() + cells.ends[i]);
+    const auto vertices = cells.of(i);
+    // Most tags are those of all cells in their order.
+    if (i < before && cells_.types[i] == cells.types[i] &&
+        std::equal(vertices.begin(), vertices.end(), cells_.of(i).begin())) {
+      return static_cast<std::uint32_t>(i);
+    }
+    Known& known = known_[cells.types[i]];
+    for (; known.end < before; ++known.end) {
+      if (cells_.types[known.end] == cells.types[i])
+        known.number_of.emplace(cells_.sorted(known.end), known.end);
+    }
+    const auto found = known.number_of.find(cells.sorted(i));
+    if (found != known.number_of.end()) return static_cast<std::uint32_t>(found->second);
+    cells_.vertices.insert(cells_.vertices.end(), vertices.begin(), vertices.end());
     cells_.add(static_cast<int>(cells.types[i]));
     return static_cast<std::uint32_t>(cells_.types.size() - 1);
   }
@@ -325,6 +274,13 @@ class Reader {
     }
     if (labels.empty() && !all.empty()) labels = all[0].name;
     for (const Part& part : arrays_) all.push_back(spread(part));
+    std::map<std::string, std::set<std::int64_t>> types_of;  // that an array has values of
+    for (const auto* parts : {&tags_, &arrays_}) {
+      for (const Part& part : *parts) {
+        for (const std::uint32_t row : part.rows)
+          types_of[part.array.name].insert(cells_.types[row]);
+      }
+    }
     VtkCells cells;
     cells.count = cells_.types.size();
     cells.has_offsets = true;
@@ -338,6 +294,21 @@ class Reader {
     };
     adopt_cell_arrays(mesh_, std::move(all), numbers, {labels, failure});
     adopt_point_arrays(mesh_, std::move(point_arrays_), failure);
+    drop_without_values(types_of);
+  }
+
+  /// Arrays of kinds of cells that no grid has values for.
+  void drop_without_values(const std::map<std::string, std::set<std::int64_t>>& types_of) {
+    const auto drop = [&](std::vector<DataArray>& of, int type) {
+      std::erase_if(of, [&](const DataArray& array) {
+        const auto found = types_of.find(array.name);
+        return found != types_of.end() && !found->second.contains(type);
+      });
+    };
+    drop(mesh_.tet_data, vtk_tet);
+    drop(mesh_.triangle_data, vtk_triangle);
+    drop(mesh_.edge_data, vtk_edge);
+    for (OtherElements& others : mesh_.other_elements) drop(others.data, others.vtk_type);
   }
 
   /// Where one has a value, the other has none.
@@ -363,8 +334,12 @@ class Reader {
   MeshData mesh_;
   XdmfCells cells_;
   std::size_t mesh_cells_ = 0;  // of these: of the grid of the mesh
-  std::map<Sorted, std::size_t> number_of_;
-  std::size_t known_ = 0;  // cells of these that are in number_of_
+  /// The numbers of cells of one type, up to `end`.
+  struct Known {
+    std::map<std::vector<std::int64_t>, std::size_t> number_of;
+    std::size_t end = 0;
+  };
+  std::map<std::int64_t, Known> known_;  // by type
   std::vector<Part> tags_, arrays_;
   std::vector<DataArray> point_arrays_;
 };

@@ -132,6 +132,92 @@ def meshio_med(folder: Path) -> None:
         raise AssertionError("the volume is another")
 
 
+def run(folder: Path, *words) -> str:
+    done = subprocess.run(list(map(str, words)), cwd=folder, capture_output=True, text=True, errors="replace")
+    if done.returncode != 0:
+        raise AssertionError(f"{words[0]}: {done.returncode}: {done.stdout[-300:]}{done.stderr[-300:]}")
+    return done.stdout
+
+
+def med_by_its_library(folder: Path) -> None:
+    """A file that MED's own library has written anew -> tetmend -> MED's program, which reads all of it."""
+    tetmend("convert", gmsh_mesh(folder, "msh"), folder / "part.med")
+    run(folder, "medimport", "part.med", "theirs.med")
+    better = improved(folder / "theirs.med")
+    told = run(folder, "mdump", "--structure", better, "NODALE", "FULL_INTERLACE", "1")
+    count = int(re.search(r"MED_TETRA4 : (\d+)", told).group(1))
+    if f"{count:,} tets" not in tetmend("convert", better, folder / "again.med") or "ERREUR" in told:
+        raise AssertionError(f"MED's library reads {count} tets")
+    conform = run(folder, "medconforme", better)
+    if "non conforme" in conform:
+        raise AssertionError(conform)
+
+
+def cgns_by_its_library(folder: Path) -> None:
+    """A file that CGNS's own library has written -> tetmend -> CGNS's programs: one checks it, one reads the mesh."""
+    tetmend("convert", gmsh_mesh(folder, "msh"), folder / "part.cgns")
+    run(folder, "cgnsconvert", "-a", "part.cgns", "theirs.adf")
+    run(folder, "cgnsconvert", "-h", "theirs.adf", "theirs.cgns")
+    better = improved(folder / "theirs.cgns")
+    told = run(folder, "cgnscheck", better)
+    if "ERROR" in told or not all(f'"{name}"' in told for name in ("left", "right", "inlet", "outlet")):
+        raise AssertionError(told[-500:])
+    (folder / "out").mkdir()
+    run(folder, "cgns_to_vtk", "-a", better.name, "out")
+    words = next((folder / "out").glob("*.vtk")).read_text().split()
+    at = words.index("POINTS")
+    points = np.array(words[at + 3:at + 3 + 3 * int(words[at + 1])], dtype=float).reshape(-1, 3)
+    at, tets = words.index("CELLS"), []
+    cells, at = int(words[at + 1]), at + 3
+    for _ in range(cells):
+        width = int(words[at])
+        if width == 4:
+            tets.append([int(word) for word in words[at + 1:at + 5]])
+        at += 1 + width
+    if abs(volume(points, tets) - 2) > 1e-6:  # it writes single precision
+        raise AssertionError("the volume is another")
+
+
+def unv_of_gmsh(folder: Path) -> None:
+    """Gmsh -> .unv with groups -> tetmend -> Gmsh: the volumes of the groups by their names."""
+    import gmsh
+    better = improved(gmsh_mesh(folder, "unv"))
+    gmsh.initialize(["-noenv", "-v", "0"])
+    try:
+        gmsh.open(str(better))
+        found = {}
+        for dimension, tag in gmsh.model.getPhysicalGroups():
+            found[gmsh.model.getPhysicalName(dimension, tag)] = dimension
+        numbers, places, _ = gmsh.model.mesh.getNodes()
+        row = dict(zip(numbers, range(len(numbers))))
+        _, nodes = gmsh.model.mesh.getElementsByType(4)
+        tets = np.array([row[node] for node in nodes]).reshape(-1, 4)
+        if abs(volume(places.reshape(-1, 3), tets) - 2) > 1e-9:
+            raise AssertionError("the volume is another")
+    finally:
+        gmsh.finalize()
+    if found != {"left": 3, "right": 3, "inlet": 2, "outlet": 2}:
+        raise AssertionError(f"groups {found}")
+
+
+def keys_of_gmsh(folder: Path) -> None:
+    """Gmsh's .key for LS-DYNA -> tetmend -> .key, of which all but nodes and solids is as Gmsh wrote it."""
+    for order in (1, 2):
+        source = gmsh_mesh(folder, "key", order)
+        better = improved(source)
+
+        def rest(file):
+            parts = re.split(r"^(?=\*)", file.read_text(), flags=re.M)
+            return [part for part in parts if not re.match(r"\*(NODE|ELEMENT_SOLID)\b", part)]
+
+        if rest(source) != rest(better) or len(rest(better)) < 4:
+            raise AssertionError("what is no mesh is another")
+        tetmend("convert", better, folder / "read.msh", "--variant", "2.2 ASCII")
+        counted = run(folder, "gmsh", "-nopopup", "-", "read.msh")
+        if "Error" in counted:
+            raise AssertionError(counted)
+
+
 def paraview_to_mfem(folder: Path) -> None:
     """A .vtu of VTK's writer, regions and all -> tetmend -> MFEM, which PyMFEM reads where it is."""
     from vtkmodules.util.numpy_support import numpy_to_vtk
@@ -260,12 +346,16 @@ CHAINS = [
     (gmsh_to_meshio, lambda: shutil.which("gmsh") and has("meshio")),
     (med_round_trip, lambda: shutil.which("gmsh") and has("h5py")),
     (meshio_med, lambda: shutil.which("gmsh") and has("meshio") and has("h5py")),
+    (med_by_its_library, lambda: all(map(shutil.which, ("gmsh", "medimport", "mdump", "medconforme")))),
+    (cgns_by_its_library, lambda: all(map(shutil.which, ("gmsh", "cgnsconvert", "cgnscheck", "cgns_to_vtk")))),
+    (unv_of_gmsh, lambda: shutil.which("gmsh") and has("gmsh")),
+    (keys_of_gmsh, lambda: shutil.which("gmsh")),
     (paraview_to_mfem, lambda: shutil.which("gmsh") and has("meshio") and has("vtkmodules")),
     (fenics, lambda: shutil.which("gmsh") and has("dolfinx") and has("gmsh")),
     (svfsi, lambda: shutil.which("gmsh") and has("meshio")),
     (exodus_of_vtk, lambda: shutil.which("gmsh") and has("meshio") and has("netCDF4") and has("vtkmodules")),
 ]
-OF_HDF5 = {med_round_trip, meshio_med, fenics, exodus_of_vtk}
+OF_HDF5 = {med_round_trip, meshio_med, med_by_its_library, cgns_by_its_library, fenics, exodus_of_vtk}
 
 
 def main() -> int:

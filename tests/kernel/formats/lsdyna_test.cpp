@@ -2,7 +2,10 @@
 // Keyword files of LS-DYNA: degenerate solids, parts, sets, what stays word for word and what it pins.
 #include "kernel/formats/lsdyna.h"
 
+#include <algorithm>
+
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 
 #include "kernel/formats/deck_remarks.h"
 #include "tests/kernel/formats/damage.h"
@@ -301,6 +304,17 @@ TEST_CASE("a tet of a deck of LS-DYNA is located by its line") {
   const TempFolder folder;
   write_text(folder / "a.k", deck_text());
   CHECK(locate_tet(folder / "a.k", 1).ends_with("a.k:23"));
+}
+
+TEST_CASE("a segment of LS-DYNA with a node twice is told with its own line, not that of a tet") {
+  const TempFolder folder;
+  const std::string segment = "        11        12        12        12\n";
+  const std::string text = edited(deck_text(), "*END", segment + "*END");
+  const auto line =
+      std::count(text.begin(), text.begin() + static_cast<long>(text.find(segment)), '\n') + 1;
+  const MeshData mesh = read_deck(folder, text);
+  REQUIRE(mesh.notes.size() == 1);
+  CHECK(mesh.notes[0].starts_with((folder / fmt::format("a.k:{}: triangle 2", line)).string()));
 }
 
 TEST_CASE("a deck of LS-DYNA with a byte changed or cut away never crashes") {

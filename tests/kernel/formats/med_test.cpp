@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <functional>
 #include <memory>
+#include <set>
 
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 
 #include "kernel/formats/hdf5_file.h"
 #include "kernel/geometry.h"
@@ -192,6 +194,25 @@ TEST_CASE("fields of MED have 64 bytes of name at most, groups 80, and all of th
   CHECK(again.point_data[0].name == std::string(62, 'f') + "_2");
   for (const std::string& group : {cut, std::string(78, 'g') + "_2", std::string(78, 'g') + "_3"})
     CHECK(find_group(again, group) != nullptr);
+}
+
+TEST_CASE("two groups of MED with one name and dimension stay two, and a note says so") {
+  if (!formats::has_hdf5()) return;
+  const TempFolder folder;
+  MeshData mesh;
+  mesh.points = {Point(0, 0, 0), Point(1, 0, 0), Point(0, 1, 0), Point(0, 0, 1), Point(0, 0, -1)};
+  mesh.tets = {{{0, 1, 2, 3}, 0}, {{0, 2, 1, 4}, 0}};
+  mesh.triangles = {{{0, 1, 3}, 0}};
+  mesh.groups = {{3, 1, "wall", {}, {0}}, {3, 2, "wall", {}, {0, 1}}, {2, 3, "wall", {}, {0}}};
+  const std::vector<std::string> lost = not_written(folder / "a.med", mesh);
+  CHECK(lost ==
+        std::vector<std::string>{"1 names of groups get a number: .med has each name once"});
+  write_mesh(folder / "a.med", mesh);
+  const MeshData again = read_mesh(folder / "a.med");
+  std::multiset<std::string> names;
+  for (const Group& group : again.groups)
+    names.insert(fmt::format("{} {}: {}", group.dimension, group.name, group.parts.size()));
+  CHECK(names == std::multiset<std::string>{"2 wall: 1", "3 wall: 1", "3 wall_2: 2"});
 }
 
 TEST_CASE("tables of MED that make no sense are refused with the table and the reason") {

@@ -113,6 +113,19 @@ TEST_CASE("arrays whose names are no text, or end in blanks, have tables that XD
     CHECK(again.point_data[k].values == mesh.point_data[k].values);
 }
 
+TEST_CASE("faces of tags have no values of the arrays of the mesh of XDMF") {
+  const TempFolder folder;
+  write_text(folder / "a.xdmf",
+             replaced(small_xdmf(), "</Geometry>\n  </Grid>",
+                      "</Geometry>\n   <Attribute Name=\"rho\" Center=\"Cell\">\n"
+                      "    <DataItem Dimensions=\"2 1\" Format=\"XML\">3 4</DataItem>\n"
+                      "   </Attribute>\n  </Grid>"));
+  const MeshData mesh = read_mesh(folder / "a.xdmf");
+  CHECK(mesh.tet_data == std::vector<DataArray>{{"rho", 1, std::vector<double>{3, 4}}});
+  CHECK(mesh.triangles.size() == 1);
+  CHECK(mesh.triangle_data.empty());
+}
+
 TEST_CASE("XDMF that makes no sense is refused with file, line and reason") {
   struct Case {
     std::string_view what, by, error;
