@@ -189,7 +189,7 @@ Area dock_algorithm(const Session& session, Area& area, float share) {
 
 /// What is spoken of, one below the other, the algorithm last; nothing needs to be scrolled to.
 void teach(Session& session, const Layout& layout) {
-  constexpr float kMostOfColumn = 0.66F;
+  constexpr float kMostOfColumn = 0.56F;
   const auto shows = [&](Focus focus) {
     return std::find(layout.focus.begin(), layout.focus.end(), focus) != layout.focus.end();
   };

@@ -27,7 +27,7 @@ constexpr float kMostTextHeight = 0.45F;    // of the window
 constexpr float kLeastTeachingWidth = 1100;
 constexpr float kLeastTeachingHeight = 680;
 
-/// What the lesson speaks of here; between its steps, and without a lesson, of the call at hand.
+/// What the lesson speaks of here; nothing between its steps, and without a lesson.
 std::vector<Focus> focus_of(const Debugger& debugger) {
   std::vector<Focus> focus;
   if (debugger.lesson()) {
@@ -37,7 +37,7 @@ std::vector<Focus> focus_of(const Debugger& debugger) {
       }
     }
   }
-  if (focus.empty()) focus = {Focus::picture, Focus::ring, Focus::algorithm};
+  if (focus.empty()) return focus;
   if (debugger.call() == kNoCall) {  // there is none to be drawn
     std::erase(focus, Focus::ring);
     std::erase(focus, Focus::tables);
@@ -66,20 +66,24 @@ float height_of_text(const Debugger& debugger, float width, float most, float sc
   return std::min(most, (1.35F * longest + 3.6F) * size);
 }
 
-/// Picture and column side by side, the text below both.
+/// At a step of a lesson the text stands below picture and column; elsewhere the column, for ring and
+/// algorithm, is as high as the window.
 void teach(const Debugger& debugger, Layout& layout, float width, float top, float bottom,
            float scale) {
   layout.is_teaching = true;
   layout.text = kTeachingText;
   layout.focus = focus_of(debugger);
+  const bool is_step = !layout.focus.empty();
+  if (!is_step) layout.focus = {Focus::picture, Focus::ring, Focus::algorithm};
   const bool has_picture = layout.focus.front() == Focus::picture;
   const bool has_column = layout.focus.back() != Focus::picture;
   const float share = !has_column ? 0 : has_picture ? kTeachingWidth : kWideTeachingWidth;
   const float side = std::round(share * width);
   const float strip =
       std::round(height_of_text(debugger, width, kMostTextHeight * (bottom - top), scale));
-  layout.strip = {0, bottom - strip, width, strip};
-  if (has_column) layout.right = {width - side, top, side, bottom - strip - top};
+  layout.strip = {0, bottom - strip, is_step ? width : width - side, strip};
+  const float below = is_step ? strip : 0;
+  if (has_column) layout.right = {width - side, top, side, bottom - below - top};
   layout.canvas = {0, top, width - side, bottom - strip - top};
 }
 
