@@ -16,7 +16,7 @@ constexpr std::uint64_t kBytesOfAnEvent = 2048;
 /// A list by vertex costs as much as so many looks at all tets.
 constexpr unsigned kFewLooks = 8;
 
-bool has_all(const TetVertices& tet, std::span<const VertexHandle> vertices) {
+bool holds_all_of(const TetVertices& tet, std::span<const VertexHandle> vertices) {
   return std::all_of(vertices.begin(), vertices.end(), [&](VertexHandle v) {
     return std::find(tet.begin(), tet.end(), v) != tet.end();
   });
@@ -108,13 +108,13 @@ std::vector<TetHandle> Replay::tets_around(std::span<const VertexHandle> vertice
     ++looks_;
     for (std::uint32_t slot = 0; slot < mesh().tet_slots(); ++slot) {
       const TetHandle t(slot);
-      if (has_all(mesh().vertices(t), vertices) && !mesh().is_deleted(t)) tets.push_back(t);
+      if (holds_all_of(mesh().vertices(t), vertices) && !mesh().is_deleted(t)) tets.push_back(t);
     }
     return tets;
   }
   vertex_tets_.follow(mesh(), changes());
   tets = vertex_tets_.tets_of(vertices.front());
-  std::erase_if(tets, [&](TetHandle t) { return !has_all(mesh().vertices(t), vertices); });
+  std::erase_if(tets, [&](TetHandle t) { return !holds_all_of(mesh().vertices(t), vertices); });
   return tets;
 }
 
