@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <functional>
 #include <queue>
+#include <utility>
 
 namespace tetmend::explain {
 
@@ -12,13 +13,19 @@ namespace {
 /// Number of bad tets and worst quality of a mesh whose tets come and go.
 class Gauge {
  public:
-  explicit Gauge(const SlotMesh& mesh) { set_all(mesh); }
-
-  void set_all(const SlotMesh& mesh) {
+  explicit Gauge(const auto& mesh) : quality_(mesh.tet_slots(), kNone), is_bad_(quality_.size()) {
+    std::vector<Entry> low;
     for (std::uint32_t i = 0; i < mesh.tet_slots(); ++i) {
-      if (!mesh.is_deleted(TetHandle(i))) set(mesh, TetHandle(i));
+      const TetHandle t(i);
+      if (mesh.is_deleted(t)) continue;
+      quality_[i] = mesh.quality(t);
+      is_bad_[i] = misses_goal(mesh, t);
+      bad_ += is_bad_[i] ? 1 : 0;
+      if (quality_[i] < kBadThreshold) low.emplace_back(quality_[i], i);
     }
+    worst_ = Entries({}, std::move(low));
   }
+
   void set(const SlotMesh& mesh, TetHandle t) {
     set(t.index(), mesh.quality(t), misses_goal(mesh, t));
   }
@@ -26,14 +33,23 @@ class Gauge {
 
   std::size_t bad() const { return bad_; }
   double worst() {
-    while (!worst_.empty() && quality_[worst_.top().second] != worst_.top().first) worst_.pop();
+    drop_old();
+    if (worst_.empty() && !std::exchange(has_all_, true)) {
+      for (std::uint32_t i = 0; i < quality_.size(); ++i) {
+        if (quality_[i] != kNone) worst_.emplace(quality_[i], i);
+      }
+    }
     return worst_.empty() ? 0 : static_cast<double>(worst_.top().first);
   }
 
  private:
   static constexpr Quality kNone = std::numeric_limits<Quality>::infinity();
   using Entry = std::pair<Quality, std::uint32_t>;
+  using Entries = std::priority_queue<Entry, std::vector<Entry>, std::greater<>>;
 
+  void drop_old() {
+    while (!worst_.empty() && quality_[worst_.top().second] != worst_.top().first) worst_.pop();
+  }
   void set(std::uint32_t slot, Quality quality, bool is_bad) {
     if (slot >= quality_.size()) {
       quality_.resize(slot + 1, kNone);
@@ -46,9 +62,10 @@ class Gauge {
     if (quality != kNone) worst_.emplace(quality, slot);
   }
 
-  std::vector<Quality> quality_;                                          // by slot
-  std::vector<bool> is_bad_;                                              // likewise
-  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> worst_;  // with some of old times
+  std::vector<Quality> quality_;  // by slot
+  std::vector<bool> is_bad_;      // likewise
+  Entries worst_;                 // those of low quality at least, with some of old times
+  bool has_all_ = false;          // and all others, too
   std::size_t bad_ = 0;
 };
 
@@ -73,10 +90,11 @@ std::size_t Timeline::changes_before(std::uint64_t position) const {
                                   changes.begin());
 }
 
-Timeline make_timeline(const TraceFile& file, Replay& replay, std::size_t samples) {
+Timeline make_timeline(const TraceFile& file, Replay& replay, const TetMesh* start,
+                       std::size_t samples) {
   Timeline timeline;
   replay.seek(0);
-  Gauge gauge(replay.mesh());
+  Gauge gauge = start != nullptr ? Gauge(*start) : Gauge(replay.mesh());
   timeline.samples.push_back({0, gauge.bad(), gauge.worst()});
   EventCursor cursor(file);
   const std::uint64_t end = file.event_count();
@@ -96,7 +114,7 @@ Timeline make_timeline(const TraceFile& file, Replay& replay, std::size_t sample
       if (changes_mesh(kind)) {
         follow(gauge, replay.mesh(), replay.cavity());
       } else {
-        gauge.set_all(replay.mesh());
+        gauge = Gauge(replay.mesh());
       }
     }
     if (position % distance == 0 || position == end) {

@@ -154,6 +154,7 @@ class Improvement {
   void map_entities();
   void give_back();
   void give_back_improved();
+  MeshData data_so_far() const;
   std::vector<std::uint32_t> frozen_tets() const;
   void curve_inside(const std::vector<std::uint32_t>& frozen, MeshData& data);
   void give_back_input() noexcept;
@@ -310,7 +311,8 @@ void Improvement::run_schedule(std::size_t passes, double seconds) {
   run.set_listener(&watcher_);
   const face::ArrayValues values(input_);
   run.set_values(&values);
-  run.set_trace(follower_ != nullptr ? follower_->follow(run) : trace_.get());
+  const face::DataSoFar so_far = [this] { return data_so_far(); };
+  run.set_trace(follower_ != nullptr ? follower_->follow(run, so_far) : trace_.get());
   contract::Inspector inspector;
   if (options_.check_operators) run.set_inspector(&inspector);
   watcher_.watch(&run, quality_indicators(mesh_));
@@ -485,10 +487,9 @@ void Improvement::give_back() {
   }
 }
 
-/// In the user's mesh; only of one of second order that has tets turned over.
+/// In the user's mesh.
 std::vector<std::uint32_t> Improvement::frozen_tets() const {
   std::vector<std::uint32_t> frozen;
-  if (!result_.curved_after || result_.curved_after->turned_over == 0) return frozen;
   for (std::uint32_t slot = 0; slot < mesh_.tet_slots(); ++slot) {
     const TetHandle t(slot);
     if (mesh_.is_deleted(t) || !mesh_.is_frozen(t)) continue;
@@ -497,12 +498,19 @@ std::vector<std::uint32_t> Improvement::frozen_tets() const {
   return frozen;
 }
 
+/// By tet of `data`; empty where none is frozen.
+std::vector<bool> marked(const std::vector<std::uint32_t>& frozen,
+                         const std::vector<std::uint32_t>& tet_map, const MeshData& data) {
+  std::vector<bool> is_frozen(frozen.empty() ? 0 : data.tets.size(), false);
+  for (const std::uint32_t t : frozen) is_frozen[tet_map[t]] = true;
+  return is_frozen;
+}
+
 /// Last of all: which edges there are is settled.
 void Improvement::curve_inside(const std::vector<std::uint32_t>& frozen, MeshData& data) {
   if (!result_.curved_after || result_.curved_after->turned_over == 0) return;
-  std::vector<bool> is_frozen(frozen.empty() ? 0 : data.tets.size(), false);
-  for (const std::uint32_t t : frozen) is_frozen[result_.tet_map[t]] = true;
-  const face::Curving done = face::curve_inside(data, is_frozen, options_.straighten);
+  const face::Curving done =
+      face::curve_inside(data, marked(frozen, result_.tet_map, data), options_.straighten);
   result_.curved_edges = done.curved;
   result_.straightened_edges = done.straightened;
   result_.curved_after = curved_statistics(data);
@@ -513,7 +521,8 @@ void Improvement::give_back_improved() {
   // What the run and the measuring have freed lies in pieces of the heap. Given back, it makes room
   // for the arrays: about 10 bytes a tet less at the peak.
   platform::trim_heap();
-  const std::vector<std::uint32_t> frozen = frozen_tets();
+  std::vector<std::uint32_t> frozen;
+  if (result_.curved_after && result_.curved_after->turned_over > 0) frozen = frozen_tets();
   if (carries_ && result_.vertex_map.empty()) map_entities();  // the run failed half-way
   MeshData data = std::move(mesh_).to_data();
   if (carries_) {
@@ -535,6 +544,32 @@ void Improvement::give_back_improved() {
     scale_.to_file(data.points);
   }
   user_mesh_ = MeshAccess::make(std::move(data));
+}
+
+/// As give_back_improved(), of a copy, and nothing is told of how it came over.
+MeshData Improvement::data_so_far() const {
+  TetMesh mesh = mesh_;
+  std::vector<std::uint32_t> vertices;
+  std::vector<std::uint32_t> tets;
+  std::vector<std::uint32_t> frozen;
+  if (carries_) {
+    vertices = face::map_vertices(mesh, vertices_before_);
+    tets = face::map_tets(mesh, tet_numbers_);
+    if (!input_.mid_nodes.empty()) frozen = frozen_tets();
+  }
+  mesh.collect_garbage();  // in a pass the counts of the mesh lag behind
+  MeshData data = std::move(mesh).to_data();
+  if (!carries_) return data;
+  scale_.to_work(data.points);
+  face::renew_mid_nodes(input_, vertices, data);
+  if (!data.mid_nodes.empty() && curved_statistics(data).turned_over > 0) {
+    face::curve_inside(data, marked(frozen, tets, data), options_.straighten);
+  }
+  face::carry(input_, vertices, tets, options_.conserve, data,
+              plan_.surface.is_fixed() ? nullptr : &marks_);
+  if (!plan_.surface.is_fixed()) face::label_surface_points(input_, vertices, data);
+  scale_.to_file(data.points);
+  return data;
 }
 
 void Improvement::give_back_input() noexcept {

@@ -4,12 +4,14 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <string>
 
 #include <tetmend/improve.h>
 
 #include "face/portrait.h"
+#include "kernel/mesh_data.h"
 #include "kernel/mesh_view.h"
 #include "schedule/run.h"
 #include "trace/recorder.h"
@@ -30,14 +32,19 @@ Result improve(Mesh& mesh, const Options& options, std::unique_ptr<TraceRecorder
 /// As tetmend::improve(), drawn. @param portrait see above
 Result improve(Mesh& mesh, const Options& options, Portrait* portrait);
 
+/// The mesh of a run as it is, by a copy, with all that the user's mesh holds besides, as improve()
+/// would leave it. For the thread of the run, or while that waits. Cost: n log n.
+using DataSoFar = std::function<MeshData()>;
+
 /// Looks into a run while it goes on.
 class Follower {
  public:
   virtual ~Follower() = default;
   /// The passes of `run` begin, or begin anew where it goes back; `run` is the one before no longer.
   /// What is returned is told of passes, attempts and edits, all in one thread. It may look at the
-  /// mesh meanwhile, and hold parameters where a pass begins. Null: nothing.
-  virtual TraceSink* follow(Run& run) = 0;
+  /// mesh meanwhile, and hold parameters where a pass begins. Null: nothing. `so_far` may be asked
+  /// as long as the run is there.
+  virtual TraceSink* follow(Run& run, const DataSoFar& so_far) = 0;
 };
 
 /// As tetmend::improve(), followed. Options::trace must be empty: who follows may record.

@@ -8,6 +8,7 @@
 #include <fmt/ranges.h>
 
 #include "kernel/mesh_view.h"
+#include "kernel/star.h"
 
 namespace tetmend {
 
@@ -40,22 +41,60 @@ struct Place {
   TetVertices tet;  // that it was found in
 };
 
+/// The first of the tets looked at that has a target of these vertices, or the first that lists
+/// them in this order, where there is one.
+class TargetSearch {
+ public:
+  TargetSearch(const TetMesh& mesh, TargetKind kind, std::span<const VertexHandle> wanted)
+      : mesh_(mesh), kind_(kind), wanted_(wanted) {}
+
+  /// False: no other need be looked at.
+  bool look_at(TetHandle t) {
+    visit_targets(mesh_, t, kind_, [&](Target target, std::span<const VertexHandle> vertices) {
+      if (in_order_ || !are_same(vertices, wanted_)) return;
+      in_order_ = std::equal(vertices.begin(), vertices.end(), wanted_.begin());
+      if (in_order_ || !found_) found_ = {target, mesh_.vertices(t)};
+    });
+    return !in_order_;
+  }
+  const std::optional<Place>& found() const { return found_; }
+
+ private:
+  const TetMesh& mesh_;
+  TargetKind kind_;
+  std::span<const VertexHandle> wanted_;
+  std::optional<Place> found_;
+  bool in_order_ = false;
+};
+
 /// In the tet of vertices `from`, or in any if there are none.
 std::optional<Place> find_target(const TetMesh& mesh, TargetKind kind,
                                  std::span<const VertexHandle> wanted,
                                  std::span<const VertexHandle> from) {
-  std::optional<Place> found;
-  bool in_order = false;
-  for (std::uint32_t i = 0; i < mesh.tet_slots() && !in_order; ++i) {
+  TargetSearch search(mesh, kind, wanted);
+  for (std::uint32_t i = 0; i < mesh.tet_slots(); ++i) {
     const TetHandle t(i);
     if (mesh.is_deleted(t) || !(from.empty() || are_same(mesh.vertices(t), from))) continue;
-    visit_targets(mesh, t, kind, [&](Target target, std::span<const VertexHandle> vertices) {
-      if (in_order || !are_same(vertices, wanted)) return;
-      in_order = std::equal(vertices.begin(), vertices.end(), wanted.begin());
-      if (in_order || !found) found = {target, mesh.vertices(t)};
-    });
+    if (!search.look_at(t)) break;
   }
-  return found;
+  return search.found();
+}
+
+/// Among the tets around the first vertex, by slot; in any where parts touch in it alone.
+std::optional<Place> find_near(const TetMesh& mesh, TargetKind kind,
+                               std::span<const VertexHandle> wanted) {
+  if (wanted.empty() || wanted.front().index() >= mesh.vertex_slots() ||
+      mesh.is_deleted(wanted.front())) {
+    return std::nullopt;
+  }
+  const Star around = star(mesh, wanted.front());
+  std::vector<TetHandle> tets(around.begin(), around.end());
+  std::sort(tets.begin(), tets.end());
+  TargetSearch search(mesh, kind, wanted);
+  for (const TetHandle t : tets) {
+    if (!search.look_at(t)) break;
+  }
+  return search.found() ? search.found() : find_target(mesh, kind, wanted, {});
 }
 
 /// @throws Error when there is no such vertex
@@ -69,6 +108,13 @@ std::vector<VertexHandle> to_handles(const MeshView& view, std::span<const std::
     vertices.emplace_back(view.vertex_slots().empty() ? number : view.vertex_slots()[number]);
   }
   return vertices;
+}
+
+void attempt_there(Run& run, PassScope& scope, const TetAttempts& attempts, const Place& place) {
+  scope.expect(1);
+  attempts.attempt_once(run.worker(), place.target, place.tet);
+  scope.take_verdicts(run.worker());
+  run.note_added_vertices(run.worker());
 }
 
 }  // namespace
@@ -86,10 +132,22 @@ void attempt_once(Run& run, const SingleAttempt& options) {
                               options.tet.empty() ? "" : " in a tet of ",
                               fmt::join(options.tet, ", ")));
     }
-    scope.expect(1);
-    attempts.attempt_once(run.worker(), place->target, place->tet);
-    scope.take_verdicts(run.worker());
-    run.note_added_vertices(run.worker());
+    attempt_there(run, scope, attempts, *place);
+  });
+}
+
+void attempt_at(Run& run, const Composition& what, std::span<const VertexHandle> vertices) {
+  make_pass(run, "attempt", [&](PassScope& scope) {
+    const TetAttempts attempts(run.registry(), what);
+    const TargetKind kind = attempts.target_kind();
+    const auto place = find_near(run.mesh(), kind, vertices);
+    if (!place) {
+      std::vector<std::uint32_t> numbers;
+      for (const VertexHandle v : vertices) numbers.push_back(v.index());
+      throw Error(fmt::format("attempt: {}: no {} has the vertices {}", what.name(),
+                              to_string(kind), fmt::join(numbers, ", ")));
+    }
+    attempt_there(run, scope, attempts, *place);
   });
 }
 

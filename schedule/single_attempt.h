@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "schedule/composition.h"
@@ -24,5 +25,8 @@ struct SingleAttempt {
 /// @throws Error for an unknown operator or parameter, a vertex that does not exist, or when no
 /// tet, edge, face or vertex is made up of the vertices. Cost: linear in the mesh.
 void attempt_once(Run& run, const SingleAttempt& options);
+
+/// The same, at what these vertices make up. Cost: that of the attempt and of a pass.
+void attempt_at(Run& run, const Composition& what, std::span<const VertexHandle> vertices);
 
 }  // namespace tetmend

@@ -66,8 +66,8 @@ TraceRecorder::TraceRecorder(const std::filesystem::path& file, const TetMesh& m
 }
 
 TraceRecorder::TraceRecorder(std::string& memory, const TetMesh& mesh, TraceHeader header,
-                             TraceClock clock)
-    : mesh_(mesh), clock_(clock), memory_(&memory), file_(memory) {
+                             TraceClock clock, TraceBeginning beginning)
+    : mesh_(mesh), clock_(clock), beginning_(beginning), memory_(&memory), file_(memory) {
   begin(std::move(header));
 }
 
@@ -80,6 +80,7 @@ void TraceRecorder::begin(TraceHeader header) {
   ByteWriter content;
   header.encode(content);
   write_frame('H', content.bytes());
+  if (beginning_ == TraceBeginning::without_mesh) return;
   content.cut(0);
   SlotMesh(mesh_).encode(content);
   write_frame('M', content.bytes());

@@ -58,6 +58,12 @@ enum class TraceClock : std::uint8_t {
   steps  ///< about a microsecond for each event: equal runs give equal traces
 };
 
+/// Whether a trace in memory has the mesh that its events begin with.
+enum class TraceBeginning : std::uint8_t {
+  with_mesh,
+  without_mesh  ///< who reads it has that already, see TraceFile
+};
+
 /// How a trace ended.
 enum class TraceEnd : std::uint8_t { complete, limit_reached };
 
@@ -73,7 +79,8 @@ class TraceRecorder final : public TraceSink {
                 TraceFilter filter = {}, TraceClock clock = TraceClock::real);
   /// A trace in memory, for who looks at it with so_far(). Precondition: `memory` outlives this, too.
   TraceRecorder(std::string& memory, const TetMesh& mesh, TraceHeader header,
-                TraceClock clock = TraceClock::real);
+                TraceClock clock = TraceClock::real,
+                TraceBeginning beginning = TraceBeginning::with_mesh);
   /// Without finish() nothing stays.
   ~TraceRecorder() override;
   TraceRecorder(const TraceRecorder&) = delete;
@@ -138,6 +145,7 @@ class TraceRecorder final : public TraceSink {
   const TetMesh& mesh_;
   TraceFilter filter_;
   TraceClock clock_;
+  TraceBeginning beginning_ = TraceBeginning::with_mesh;
   std::string* memory_ = nullptr;  // null: there is a file
   FrameWriter file_;
   std::string trouble_;

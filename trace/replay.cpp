@@ -13,6 +13,14 @@ namespace {
 constexpr std::uint64_t kLongLog = 1 << 17;
 /// A copy of so many bytes takes as long as to play an event.
 constexpr std::uint64_t kBytesOfAnEvent = 2048;
+/// A list by vertex costs as much as so many looks at all tets.
+constexpr unsigned kFewLooks = 8;
+
+bool holds_all_of(const TetVertices& tet, std::span<const VertexHandle> vertices) {
+  return std::all_of(vertices.begin(), vertices.end(), [&](VertexHandle v) {
+    return std::find(tet.begin(), tet.end(), v) != tet.end();
+  });
+}
 
 }  // namespace
 
@@ -22,7 +30,7 @@ Replay::Replay(const TraceFile& file, std::size_t memory, std::uint64_t distance
 }
 
 void Replay::take_keyframes(std::size_t memory) {
-  keyframes_.push_back({0, mesh()});
+  keyframes_.push_back({0, {}});
   const std::uint64_t affordable = std::max<std::size_t>(1, memory / (mesh().bytes() + 1));
   distance_ = std::max(distance_, file_.event_count() / affordable);
   for (const std::uint64_t begin : file_.chunk_begins()) {
@@ -33,7 +41,7 @@ void Replay::take_keyframes(std::size_t memory) {
     // The mesh may have grown. Twice the memory is the most, with one that doubles at once.
     if (keyframes_.size() * mesh().bytes() > 2 * memory) thin_keyframes();
   }
-  restore(keyframes_.front());
+  if (position_ != 0) restore(keyframes_.front());
 }
 
 /// Keeps the first and every second one after it.
@@ -48,13 +56,16 @@ void Replay::thin_keyframes() {
 }
 
 void Replay::restore(const Keyframe& keyframe) {
-  playback_.reset(keyframe.mesh, keyframe.position);
+  const bool is_first = keyframe.position == 0;
+  playback_.reset(is_first ? file_.initial_mesh() : keyframe.mesh, keyframe.position);
   position_ = keyframe.position;
 }
 
 /// The event before `position` is played or stays in the log, so that cavity() can tell of it.
 void Replay::seek(std::uint64_t position) {
-  if (position < position_ && position > playback_.log_begin()) {
+  const bool is_logged =
+      position > playback_.log_begin() || (position == 0 && playback_.log_begin() == 0);
+  if (position < position_ && is_logged) {
     playback_.back_to(position);
     position_ = position;
     return;
@@ -91,15 +102,19 @@ void Replay::shorten_log() {
 }
 
 std::vector<TetHandle> Replay::tets_around(std::span<const VertexHandle> vertices) {
-  vertex_tets_.follow(mesh(), changes());
   if (vertices.empty()) return {};
-  std::vector<TetHandle> tets = vertex_tets_.tets_of(vertices.front());
-  std::erase_if(tets, [&](TetHandle t) {
-    const TetVertices& tet = mesh().vertices(t);
-    return !std::all_of(vertices.begin(), vertices.end(), [&](VertexHandle v) {
-      return std::find(tet.begin(), tet.end(), v) != tet.end();
-    });
-  });
+  std::vector<TetHandle> tets;
+  if (looks_ < kFewLooks) {
+    ++looks_;
+    for (std::uint32_t slot = 0; slot < mesh().tet_slots(); ++slot) {
+      const TetHandle t(slot);
+      if (holds_all_of(mesh().vertices(t), vertices) && !mesh().is_deleted(t)) tets.push_back(t);
+    }
+    return tets;
+  }
+  vertex_tets_.follow(mesh(), changes());
+  tets = vertex_tets_.tets_of(vertices.front());
+  std::erase_if(tets, [&](TetHandle t) { return !holds_all_of(mesh().vertices(t), vertices); });
   return tets;
 }
 

@@ -53,13 +53,13 @@ class Replay {
   /// The slots that were written on the way here.
   const ChangeLog& changes() const { return playback_.changes(); }
   /// Tets that contain all of these vertices, by slot. Cost: that of what changed since the last
-  /// question; the first time, a pass over the tets.
+  /// question; each of the first few times, a look at all tets, and then once a list of them by vertex.
   std::vector<TetHandle> tets_around(std::span<const VertexHandle> vertices);
 
  private:
   struct Keyframe {
     std::uint64_t position;
-    SlotMesh mesh;
+    SlotMesh mesh;  // of the first one nothing: the file has it
   };
 
   void take_keyframes(std::size_t memory);
@@ -74,6 +74,7 @@ class Replay {
   std::uint64_t position_ = 0;
   std::vector<Keyframe> keyframes_;
   VertexTets vertex_tets_;
+  unsigned looks_ = 0;  // at all tets
 };
 
 }  // namespace tetmend

@@ -98,11 +98,15 @@ void decode_named(ByteReader& in, const SlotMesh& mesh, std::vector<Element>& el
 }  // namespace
 
 SlotMesh::SlotMesh(const TetMesh& mesh) : standard_(mesh.standard()), scale_(mesh.scale()) {
+  points_.reserve(mesh.vertex_slots());
+  live_.reserve(mesh.vertex_slots());
   for (std::uint32_t i = 0; i < mesh.vertex_slots(); ++i) {
     const VertexHandle v(i);
     points_.push_back(mesh.point(v));
     live_.push_back(mesh.is_deleted(v) ? 0 : 1);
   }
+  tets_.reserve(mesh.tet_slots());
+  labels_.reserve(mesh.tet_slots());
   for (std::uint32_t i = 0; i < mesh.tet_slots(); ++i) {
     const TetHandle t(i);
     tets_.push_back(mesh.vertices(t));

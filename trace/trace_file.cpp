@@ -2,6 +2,8 @@
 #include "trace/trace_file.h"
 
 #include <algorithm>
+#include <optional>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -42,11 +44,20 @@ TraceFile::TraceFile(const std::string& name, std::string_view bytes)
   read();
 }
 
+TraceFile::TraceFile(const std::string& name, std::string_view bytes, SlotMesh start)
+    : path_(name),
+      frames_(formats::InputFile(name, bytes)),
+      has_start_(true),
+      mesh_(std::move(start)) {
+  read();
+}
+
 void TraceFile::read() {
   try {
     read_beginning();
-    TraceAudit audit(mesh_);
-    read_chunks(audit);
+    std::optional<TraceAudit> audit;
+    if (!has_start_) audit.emplace(mesh_);
+    read_chunks(audit ? &*audit : nullptr);
   } catch (const ByteReader::Damage& damage) {
     throw Error(fmt::format("{}: byte {}: event {}: {}", path_.string(), frames_.offset(), events_,
                             damage.what()));
@@ -54,24 +65,28 @@ void TraceFile::read() {
   close_all();
 }
 
+/// The content of the next frame, which lies in `frame`.
+ByteReader TraceFile::frame_of(char kind, std::vector<std::byte>& frame) {
+  if (!frames_.next()) {
+    throw Error(fmt::format("{}: ends before its first event", path_.string()));
+  }
+  frames_.unpack(frames_.offset(), frame);
+  if (kind_of(frame) != kind) {
+    throw ByteReader::Damage(fmt::format("is no frame of kind '{}'", kind));
+  }
+  return content_of(frame);
+}
+
 /// What lies before the first event.
 void TraceFile::read_beginning() {
   std::vector<std::byte> frame;
-  const auto expect = [&](char kind) {
-    if (!frames_.next()) {
-      throw Error(fmt::format("{}: ends before its first event", path_.string()));
-    }
-    frames_.unpack(frames_.offset(), frame);
-    if (kind_of(frame) != kind) {
-      throw ByteReader::Damage(fmt::format("is no frame of kind '{}'", kind));
-    }
-    return content_of(frame);
-  };
   try {
-    ByteReader header = expect('H');
+    ByteReader header = frame_of('H', frame);
     header_ = TraceHeader::decode(header);
-    ByteReader mesh = expect('M');
-    mesh_ = SlotMesh::decode(mesh);
+    if (!has_start_) {
+      ByteReader mesh = frame_of('M', frame);
+      mesh_ = SlotMesh::decode(mesh);
+    }
     standard_ = mesh_.standard();
   } catch (const ByteReader::Damage& damage) {
     throw Error(fmt::format("{}: byte {}: damaged before its first event: {}", path_.string(),
@@ -81,7 +96,7 @@ void TraceFile::read_beginning() {
 
 /// Reads up to the end or to the first frame that is not whole. In a whole one all makes sense, or
 /// whoever wrote it was no recorder: then nothing of the trace is to be believed.
-void TraceFile::read_chunks(TraceAudit& audit) {
+void TraceFile::read_chunks(TraceAudit* audit) {
   std::vector<std::byte> frame;
   while (!ended_ && frames_.next()) {
     try {
@@ -118,7 +133,7 @@ void TraceFile::read_end(const std::vector<std::byte>& frame) {
   ended_ = true;
 }
 
-void TraceFile::index_chunk(const std::vector<std::byte>& frame, TraceAudit& audit) {
+void TraceFile::index_chunk(const std::vector<std::byte>& frame, TraceAudit* audit) {
   if (kind_of(frame) != 'E') throw ByteReader::Damage("a frame of no known kind");
   ByteReader in = content_of(frame);
   const std::uint64_t first = in.get();
@@ -131,13 +146,13 @@ void TraceFile::index_chunk(const std::vector<std::byte>& frame, TraceAudit& aud
   decoder.begin(std::span(frame).last(in.left()), names_);
   chunk_begins_.push_back(events_);
   chunk_offsets_.push_back(frames_.offset());
-  audit.begin_chunk();
+  if (audit != nullptr) audit->begin_chunk();
   trials_.begin_chunk();
   accepted_.clear();
   TraceEvent event;
   for (std::size_t k = 0; k < count; ++k) {
     decoder.next(event);
-    audit.follow(event);
+    if (audit != nullptr) audit->follow(event);
     index_event(event);
     ++events_;
   }

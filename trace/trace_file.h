@@ -107,6 +107,9 @@ class TraceFile {
   explicit TraceFile(const std::filesystem::path& file);
   /// The same, of bytes that TraceRecorder::so_far() gave. @param name what errors call it
   TraceFile(const std::string& name, std::string_view bytes);
+  /// The same, of what a recorder of this program wrote without_mesh; `start` is the mesh that its
+  /// events begin with. They are not checked against it. Cost: that of the events.
+  TraceFile(const std::string& name, std::string_view bytes, SlotMesh start);
 
   const std::filesystem::path& path() const { return path_; }
   const TraceHeader& header() const { return header_; }
@@ -144,11 +147,12 @@ class TraceFile {
  private:
   friend class EventCursor;
 
+  ByteReader frame_of(char kind, std::vector<std::byte>& frame);
   void read();
   void read_beginning();
-  void read_chunks(TraceAudit& audit);
+  void read_chunks(TraceAudit* audit);
   void read_end(const std::vector<std::byte>& frame);
-  void index_chunk(const std::vector<std::byte>& frame, TraceAudit& audit);
+  void index_chunk(const std::vector<std::byte>& frame, TraceAudit* audit);
   void index_event(const TraceEvent& event);
   void begin_visit(const TraceEvent& event);
   void begin_call(const TraceEvent& event);
@@ -161,6 +165,7 @@ class TraceFile {
   std::filesystem::path path_;
   FrameReader frames_;
   TraceHeader header_;
+  bool has_start_ = false;  // mesh_ was given, by who made the events
   SlotMesh mesh_;
   std::uint64_t events_ = 0;
   std::string damage_;

@@ -64,6 +64,11 @@ struct Document::Shown {
   bool debugs_live = false;
 };
 
+void Document::begin_act() {
+  if (message.is_error) message = {};
+  offer.reset();
+}
+
 void Document::resize(const Canvas& size) {
   window = size;
   canvas = size;
@@ -121,7 +126,7 @@ void Document::show(OpenedFile opened) {
 }
 
 /// In place of what is shown, under its name.
-void Document::show_debugger(std::unique_ptr<Debugger> debugger, MeasuredMesh mesh) {
+void Document::show_debugger(std::unique_ptr<Debugger> debugger, MeasuredMesh mesh, Shows what) {
   // At first: else nothing of a call inside is seen.
   const bool isolate = debugger_ == nullptr || view.scene.isolate;
   set_mesh(std::move(mesh), std::string(file_));
@@ -129,8 +134,11 @@ void Document::show_debugger(std::unique_ptr<Debugger> debugger, MeasuredMesh me
   view.scene.isolate = isolate;
   teaching = debugger_->lesson().has_value();
   standard_ = debugger_->file().initial_mesh().standard();
-  trace_reference_ = std::make_unique<ReferenceSurface>(
-      mesh_, recorded_allowance(debugger_->file().header()), "the beginning of the trace");
+  const bool is_compared = view.scene.colour == kDistance || view.scene.reference > 0;
+  if (what == Shows::trace || is_compared) {
+    trace_reference_ = std::make_unique<ReferenceSurface>(
+        mesh_, recorded_allowance(debugger_->file().header()), "the beginning of the trace");
+  }
   shown_mesh_ = debugger_->mesh_number();
   shown_root_ = shown_call_ = kNoCall;
   show_trace();
@@ -145,17 +153,32 @@ void Document::save(const std::filesystem::path& file) {
       undo_trial();
     }
   }
-  const bool has_all = data_ != nullptr && debugger_ == nullptr;
+  const std::shared_ptr<const MeshData> whole = data_shown();
   std::string lost;
-  if (has_all) {
-    write_mesh(file, *data_);
-    for (const std::string& sentence : not_written(file, *data_)) lost += "; " + sentence;
+  if (whole != nullptr) {
+    write_mesh(file, *whole);
+    for (const std::string& sentence : not_written(file, *whole)) lost += "; " + sentence;
   } else {
     write_mesh(file, MeshView(mesh_));
     if (!not_saved_.empty()) lost = ", without " + not_saved_;
   }
   if (trial_ == nullptr) is_changed_ = false;
   message = {fmt::format("wrote {}{}", file.string(), lost), !lost.empty()};
+}
+
+/// What is shown, with all that its file holds besides. Null: there is nothing besides, or what is
+/// shown is an earlier place of a trace.
+std::shared_ptr<const MeshData> Document::data_shown() const {
+  const bool is_run = live.is_active() && live.input()->data != nullptr;
+  if (!is_run) return debugger_ == nullptr ? data_ : nullptr;
+  if (live.state() != LiveState::paused) {
+    throw Error(
+        "save: the run is at work; pause it first, so that what the file holds besides its "
+        "mesh comes along");
+  }
+  const bool is_now = debugger_ == nullptr || (debugs_live_ && trial_ == nullptr &&
+                                               debugger_->position() == debugger_->end());
+  return is_now ? live.whole_data() : nullptr;
 }
 
 void Document::set_mesh(TetMesh mesh, const std::string& name) {
@@ -338,10 +361,14 @@ void Document::try_operator(const TrialRequest& request) {
   auto trial = std::make_unique<Trial>(mesh, live.registry(), request, file_);
   std::unique_ptr<Shown> aside = aside_ != nullptr ? std::move(aside_) : put_aside();
   const Camera camera = view.camera;
+  MeasuredMesh tried;
+  tried.mesh = trial->take_mesh();
+  tried.box = aside->mesh.box;
+  tried.ball = aside->mesh.ball;
+  tried.statistics = aside->mesh.statistics;
+  tried.regions = aside->mesh.regions;
   try {
-    auto debugger = trial->take_debugger();
-    MeasuredMesh tried(debugger->mesh());
-    show_debugger(std::move(debugger), std::move(tried));
+    show_debugger(trial->take_debugger(), std::move(tried), Shows::trial);
   } catch (...) {
     show_again(*aside);
     throw;
@@ -369,7 +396,8 @@ void Document::keep_trial() {
   if (live.is_active())
     throw Error("keep: a run is paused, and has a mesh of its own; stop it first");
   const std::string name = trial_->request().operator_name;
-  TetMesh result = trial_->take_result();
+  TetMesh result = aside_->mesh.mesh;
+  trial_->make_on(result, live.registry());
   std::shared_ptr<const MeshData> data;
   if (aside_->data != nullptr) {
     data = std::make_shared<const MeshData>(carried_data(*aside_->data, result));
@@ -506,6 +534,7 @@ void Document::follow_live() {
   }
   if (now == followed_ && (snapshot == nullptr || now != LiveState::paused)) return;
   const bool is_over = now == LiveState::finished || now == LiveState::stopped;
+  if ((is_over || now == LiveState::failed) && debugger_ == nullptr) data_ = live.whole_data();
   // Back from the last hole, unless the user has gone elsewhere.
   if (is_over && camera_before_run_ && view.camera == camera_of_run_) {
     view.camera = *camera_before_run_;

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -32,6 +33,15 @@ namespace tetmend::viewer {
 struct Message {
   std::string text;
   bool is_error = false;
+};
+
+class Document;
+
+/// What was done, perhaps by accident, and how it is taken back.
+struct Offer {
+  std::string text;
+  std::string button;  ///< what its button says
+  std::function<void(Document&)> take_back;
 };
 
 /// What the window is to ask the user for a file for.
@@ -75,6 +85,9 @@ class Document {
   glm::ivec2 canvas_corner{0};  ///< upper left, in pixels of the window
   PickKind pick_kind = PickKind::nearest;
   Message message;
+  std::optional<Offer> offer;  ///< a window shows it until the next act
+  /// The user does something else: an error was seen, and an offer not wanted.
+  void begin_act();
   bool show_keys = false;   ///< the page of F1
   bool show_panels = true;  ///< beside the picture
   FileQuestion question = FileQuestion::none;
@@ -251,7 +264,8 @@ class Document {
   /// Shows the whole mesh again, from where it was seen before fly_to_worst(). In a trace the camera
   /// follows the calls, and what is alone stays so.
   void end_alone();
-  /// Shows the rest, or hides all but the call at hand or what is selected.
+  /// Shows the rest, or hides all but the call at hand or what is selected. That is brought into
+  /// sight, and the rest is a ghost around what is selected.
   void toggle_isolation();
   void forget_camera_before_alone() { camera_before_alone_.reset(); }
   std::optional<std::size_t> place_among_worst();  ///< of the selected tet
@@ -275,7 +289,10 @@ class Document {
   struct Shown;
   std::unique_ptr<Shown> put_aside();
   void show_again(Shown& shown);
-  void show_debugger(std::unique_ptr<Debugger> debugger, MeasuredMesh mesh);
+  enum class Shows : bool { trace, trial };
+  void show_debugger(std::unique_ptr<Debugger> debugger, MeasuredMesh mesh,
+                     Shows what = Shows::trace);
+  std::shared_ptr<const MeshData> data_shown() const;
   void remember(const std::filesystem::path& file);
   void forget_derived();
   void follow_changes(std::span<const TetHandle> changed);
@@ -287,10 +304,13 @@ class Document {
   Selection tet_visited();
   void mark_call();
   void mark_visit();
+  void name_all();
   void mark_caller(const CallStudy& study);
   void mark(const Highlight& highlight, const Colour& colour, std::string text);
   void name_call(const CallStudy& study);
   void follow_call();
+  void isolate_selection();
+  void show_rest();
   bool is_seen(const Ball& ball) const;
   std::vector<TetHandle> isolated() const;
   void update_names();
@@ -316,6 +336,7 @@ class Document {
   bool is_alone_ = false;    // the selection was isolated, not only picked
   bool is_changed_ = false;  // the mesh is in no file
   std::optional<Camera> camera_before_alone_;
+  bool has_lent_ghosts_ = false;  // to what is alone
   /// Where the last pick took a bad tet behind the surface.
   struct Place {
     glm::dvec2 pixel{0};

@@ -133,19 +133,43 @@ void Document::fly_to_place(std::size_t i) {
 
 void Document::toggle_isolation() {
   const bool is_own = selection_ != target_ && !std::holds_alternative<std::monostate>(selection_);
-  const bool is_picked = debugger_ != nullptr && is_own && !is_alone_;
-  if (is_picked) {  // was seen in its place so far
-    is_alone_ = true;
-    isolated_.settings.reset();
+  const bool is_picked = debugger_ != nullptr && is_own && !is_alone_;  // seen in its place so far
+  if (is_own && (is_picked || !view.scene.isolate)) return isolate_selection();
+  const bool was_alone = is_alone_ && view.scene.isolate;
+  view.scene.isolate = !view.scene.isolate;
+  if (was_alone) show_rest();
+  const auto call = call_in_view();
+  if (view.scene.isolate && call && !is_seen(*call)) fit();
+}
+
+void Document::isolate_selection() {
+  constexpr double kFaint = 0.15;
+  is_alone_ = true;
+  isolated_.settings.reset();
+  view.scene.isolate = true;
+  if (view.scene.ghosts == 0) {
+    view.scene.ghosts = kFaint;
+    has_lent_ghosts_ = true;
   }
-  view.scene.isolate = is_picked || !view.scene.isolate;
+  camera_before_alone_ = view.camera;
+  if (!is_seen(ball_around(mesh_, selection_))) fit();
+}
+
+/// As it was before something was alone.
+void Document::show_rest() {
+  if (camera_before_alone_) view.camera = *camera_before_alone_;
+  camera_before_alone_.reset();
+  if (has_lent_ghosts_) view.scene.ghosts = 0;
+  has_lent_ghosts_ = false;
 }
 
 void Document::end_alone() {
-  if (debugger_ == nullptr) {
-    if (view.scene.isolate && camera_before_alone_) view.camera = *camera_before_alone_;
+  if (debugger_ == nullptr && view.scene.isolate) {
     view.scene.isolate = false;
+    show_rest();
   }
+  if (has_lent_ghosts_) view.scene.ghosts = 0;
+  has_lent_ghosts_ = false;
   camera_before_alone_.reset();
 }
 
@@ -225,7 +249,10 @@ void Document::mark_call() {
   caller_edge_.reset();
   isolated_.settings.reset();
   const CallStudy* study = debugger_->study();
-  if (study == nullptr) return mark_visit();
+  if (study == nullptr) {
+    if (debugger_->visit()) return mark_visit();
+    return name_all();
+  }
   near_ = tets_of(mesh_, *study);
   mark_caller(*study);
   name_call(*study);
@@ -258,6 +285,15 @@ void Document::mark_visit() {
   near_.erase(std::unique(near_.begin(), near_.end()), near_.end());
   for (const VertexHandle v : tet) add_name(call_names_, v, {});
   call_legend_.push_back({kSelectionColour, fmt::format("t of visit {}", *debugger_->visit())});
+}
+
+/// A lesson speaks of vertices by their numbers also before it comes to a call.
+void Document::name_all() {
+  constexpr std::size_t kMost = 40;
+  if (!debugger_->lesson() || mesh_.vertex_count() > kMost) return;
+  for (std::uint32_t i = 0; i < mesh_.vertex_slots(); ++i) {
+    if (!mesh_.is_deleted(VertexHandle(i))) add_name(call_names_, VertexHandle(i), {});
+  }
 }
 
 /// The shell that a recursive call is to make smaller, and the face that it is to remove.

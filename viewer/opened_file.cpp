@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <system_error>
 #include <utility>
 
 #include <fmt/format.h>
@@ -43,7 +44,12 @@ void refuse_what_is_no_mesh(const std::filesystem::path& file) {
   if (std::filesystem::is_directory(file, none)) {
     throw Error(fmt::format("{}: this is a folder", file.string()));
   }
-  if (file.extension() != ".trace" || !std::filesystem::exists(file, none)) return;
+  const bool is_there = std::filesystem::exists(file, none);
+  if (!is_there && format_name(file).empty()) {
+    const auto reason = std::make_error_code(std::errc::no_such_file_or_directory);
+    throw Error(fmt::format("{}: cannot be read: {}", file.string(), reason.message()));
+  }
+  if (file.extension() != ".trace" || !is_there) return;
   throw Error(std::filesystem::is_empty(file, none)
                   ? fmt::format("{}: the file is empty", file.string())
                   : fmt::format("{}: this is no trace: it does not begin as one", file.string()));

@@ -53,13 +53,27 @@ class OverlayDrawer {
     drawing_.height = document.window.height;
   }
 
-  /// Numbers that would cover others are left out; those with a role come first, and at other sides
-  /// of their vertices if need be.
+  /// Those of the call or of the selection, all that the picture has: at other sides of their vertices
+  /// if need be, or away from them at the end of a line. Of very many, some are left out.
   void names() {
-    for (const NamedVertex& name : document_.names()) name_at(name);
+    constexpr std::size_t kMost = 40;
+    const auto& all = document_.names();
+    Place middle{};
+    for (const NamedVertex& name : all) {
+      const Place at = pixel_of(name.vertex).value_or(Place{});
+      middle.x += at.x / static_cast<double>(all.size());
+      middle.y += at.y / static_cast<double>(all.size());
+    }
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      const bool must = i < kMost;
+      name_at(all[i], must, must ? std::optional(middle) : std::nullopt);
+    }
   }
+  /// Numbers that would cover others are left out.
   void numbers_of_seen() {
-    for (const VertexHandle v : seen_vertices(document_, kMostNumbers)) name_at({v, {}});
+    for (const VertexHandle v : seen_vertices(document_, kMostNumbers)) {
+      name_at({v, {}}, false, std::nullopt);
+    }
   }
 
   void pointed() {
@@ -282,24 +296,58 @@ class OverlayDrawer {
     for (const Place& corner : corners) {
       const figure::Box box = {corner.x, corner.x + width, corner.y - 0.6 * text,
                                corner.y + 0.6 * text};
-      const bool is_taken =
-          std::any_of(taken_.begin(), taken_.end(),
-                      [&](const figure::Box& other) { return box.overlaps(other); });
-      if (!is_taken) return box;
+      if (is_free(box)) return box;
       if (!sides) break;
     }
     return std::nullopt;
   }
 
-  /// The role, if there is one, then the number, beside a dot at the vertex.
-  void name_at(const NamedVertex& name) {
+  bool is_free(const figure::Box& box) const {
+    return std::none_of(taken_.begin(), taken_.end(),
+                        [&](const figure::Box& other) { return box.overlaps(other); });
+  }
+
+  /// The nearest free place around one, at first away from `middle`.
+  std::optional<figure::Box> box_away(const Place& at, double width, const Place& middle) const {
+    constexpr int kRings = 10;
+    constexpr int kDirections = 24;
+    const double text = look_.text_size;
+    const double outwards = std::atan2(at.y - middle.y, at.x - middle.x);
+    for (int ring = 1; ring <= kRings; ++ring) {
+      for (int k = 0; k < kDirections; ++k) {  // to both sides in turn
+        const double turn = 2 * std::numbers::pi * ((k + 1) / 2) / kDirections;
+        const double angle = outwards + (k % 2 == 0 ? turn : -turn);
+        const double away = 1.5 * text * ring;
+        const Place centre = {at.x + (away + width / 2) * std::cos(angle),
+                              at.y + away * std::sin(angle)};
+        const figure::Box box = {centre.x - width / 2, centre.x + width / 2, centre.y - 0.6 * text,
+                                 centre.y + 0.6 * text};
+        const bool is_inside =
+            box.left > left_ && box.right < right_ && box.top > top_ && box.bottom < bottom_;
+        if (is_inside && is_free(box)) return box;
+      }
+    }
+    return std::nullopt;
+  }
+
+  /// The role, if there is one, then the number, beside a dot at the vertex. With a middle to be away
+  /// from, at the end of a line where there is no room beside it.
+  void name_at(const NamedVertex& name, bool sides, const std::optional<Place>& middle_of_all) {
     const auto at = pixel_of(name.vertex);
     if (!at || at->x < left_ || at->x > right_ || at->y < top_ || at->y > bottom_) return;
     const double text = look_.text_size;
     const std::string number = fmt::format("{}", name.vertex.index());
     const std::string role = name.role.empty() ? "" : name.role + " ";
     const double role_width = look_.text_width(role, text);
-    const auto box = free_box(*at, role_width + look_.text_width(number, text), !role.empty());
+    const double width = role_width + look_.text_width(number, text);
+    auto box = free_box(*at, width, sides);
+    if (!box && middle_of_all) {
+      box = box_away(*at, width, *middle_of_all);
+      if (box) {
+        drawing_.line(*at, {std::clamp(at->x, box->left, box->right), (box->top + box->bottom) / 2},
+                      Pen{ink_, text / 16});
+      }
+    }
     if (!box) return;
     taken_.push_back(*box);
     const double left = box->left;

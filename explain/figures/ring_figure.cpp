@@ -31,8 +31,10 @@ std::string ring_notes(const TraceFile& file, const CallStudy& study) {
       "counterclockwise. A slice is a tet, a triangle a tet with a and one with b; the number is "
       "the quality of the worse.",
       shell.a.index(), shell.b.index(), shell.ring.front().index());
-  if (const std::string locks = locks_text(shell); !locks.empty()) text += ' ' + locks;
-  if (const std::string end = explain_end(file, study); !end.empty()) text += ' ' + end;
+  const std::string end = explain_end(file, study);
+  const std::string locks = locks_text(shell);
+  if (end.find(locks) == std::string::npos) text += ' ' + locks;  // once
+  if (!end.empty()) text += ' ' + end;
   return text;
 }
 

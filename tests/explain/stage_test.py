@@ -41,6 +41,9 @@ const bar = document.getElementById("bar").getBoundingClientRect();
 const room = [0, 0, innerWidth, bar.top];
 if (document.documentElement.scrollHeight > innerHeight || document.documentElement.scrollWidth > innerWidth) bad.push("the page scrolls");
 isInside(document.getElementById("bar"), [0, 0, innerWidth, innerHeight], "bar");
+for (const e of document.querySelectorAll("[role=img]")) {
+  if (isSeen(e) && e.querySelector("a, button, [tabindex]")) bad.push(`${e.id}: a picture with something to press`);
+}
 for (const id of ["lesson-text", "ask"]) {
   const e = document.getElementById(id);
   if (!isSeen(e)) continue;

@@ -27,7 +27,7 @@ TEST_CASE("the curves are those of the mesh at each sample") {
   const test::TracedBall trace;
   const TraceFile file(trace.path());
   Replay replay(file);
-  const Timeline timeline = make_timeline(file, replay, 60);
+  const Timeline timeline = make_timeline(file, replay, nullptr, 60);
   CHECK(replay.position() == 0);
   REQUIRE(timeline.samples.size() > 20);
   CHECK(timeline.samples.size() < 130);
@@ -71,7 +71,7 @@ TEST_CASE("the curves follow a run that changes its goal") {
                Schedule("goals", "smooth{} goal{min = 40} smooth{} goal{min = 10} smooth{}"));
   const TraceFile file(folder / "trace");
   Replay replay(file);
-  const Timeline timeline = make_timeline(file, replay, file.event_count());
+  const Timeline timeline = make_timeline(file, replay, nullptr, file.event_count());
   std::size_t goals = 0;
   for (const Timeline::Sample& sample : timeline.samples) {
     const Goal before = replay.mesh().standard().goal();

@@ -58,3 +58,34 @@ TEST_CASE("a single attempt at what is not there is a mistake of the script") {
   CHECK_THROWS_WITH_AS(trace_of("attempt(all_of{'smoothing'}, {0})"),
                        doctest::Contains("must be one operator"), Error);
 }
+
+TEST_CASE("an attempt at handles does what the one at numbers does, wherever the target lies") {
+  const TetMesh mesh(delaunay_ball(60, 2));
+  const Registry registry = Registry::builtin();
+  std::size_t accepted = 0;
+  for (std::uint32_t slot = 0; slot < mesh.tet_slots(); ++slot) {
+    const TetVertices& v = mesh.vertices(TetHandle(slot));
+    const std::array<VertexHandle, 2> edge = {v[1], v[3]};
+    const auto made = [&](const auto& attempt) {
+      TetMesh tried = mesh;
+      Run run(tried, registry);
+      TextTrace text;
+      run.set_trace(&text);
+      attempt(run);
+      accepted += run.records[0].accepted();
+      return text.text();
+    };
+    const Composition what{.operator_name = "edge_removal"};
+    const std::string by_handles = made([&](Run& run) { attempt_at(run, what, edge); });
+    const std::string by_numbers = made([&](Run& run) {
+      attempt_once(run, {.what = what, .vertices = {edge[0].index(), edge[1].index()}});
+    });
+    CHECK(by_handles == by_numbers);
+  }
+  CHECK(accepted > 0);
+  TetMesh tried = mesh;
+  Run run(tried, registry);
+  const std::array<VertexHandle, 2> none = {VertexHandle(0), VertexHandle(0)};
+  CHECK_THROWS_WITH_AS(attempt_at(run, {.operator_name = "edge_removal"}, none),
+                       doctest::Contains("no edge has the vertices 0, 0"), Error);
+}

@@ -250,3 +250,35 @@ TEST_CASE("a trace says which parameters a user has changed, between which passe
   CHECK(contains(format_summary(file, summarize(file)),
                  "changed while the run was paused: smoothing: rings = 2\nsmooth"));
 }
+
+TEST_CASE("events in memory without their mesh are played on the mesh that they begin with") {
+  const TetMesh start = asset_mesh("sheet.mesh");
+  std::string whole, events;
+  const auto record_into = [&](std::string& memory, TraceBeginning beginning) {
+    TetMesh mesh = start;
+    TraceRecorder recorder(memory, mesh, {}, TraceClock::steps, beginning);
+    const Registry registry = Registry::builtin();
+    Run run(mesh, registry);
+    run.set_trace(&recorder);
+    improve(run, Schedule("brief", "local_reconnection{} smooth{}"));
+    run.set_trace(nullptr);
+    recorder.finish();
+  };
+  record_into(whole, TraceBeginning::with_mesh);
+  record_into(events, TraceBeginning::without_mesh);
+  CHECK(events.size() < whole.size());
+  const TraceFile wanted("whole", whole);
+  const TraceFile file("events", events, SlotMesh(start));
+  REQUIRE(file.event_count() == wanted.event_count());
+  CHECK(file.damage().empty());
+  CHECK(file.calls().size() == wanted.calls().size());
+  Replay replay(file), other(wanted);
+  for (const std::uint64_t position :
+       {file.event_count(), file.event_count() / 2, std::uint64_t{0}}) {
+    replay.seek(position);
+    other.seek(position);
+    CHECK(replay.mesh().fingerprint() == other.mesh().fingerprint());
+    CHECK(replay.cavity().created.size() == other.cavity().created.size());
+  }
+  CHECK_THROWS_AS(TraceFile("events", events), Error);
+}

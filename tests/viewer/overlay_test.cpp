@@ -213,3 +213,26 @@ TEST_CASE("the legend of a call is small in a small picture, and lies on no vert
   CHECK(legends > 20);
   CHECK(moved > 0);
 }
+
+TEST_CASE("no vertex of what is selected is without its number, however small the picture is") {
+  TestSession s(test::kuhn_cube(4, 0.2, 1));
+  const auto words_at = [&](double text) {
+    const figure::Drawing drawing = draw_overlay(s.document, {.text_size = text});
+    std::vector<figure::Box> boxes;
+    for (const figure::Shape& shape : drawing.shapes) {
+      if (const auto* word = std::get_if<figure::Text>(&shape)) boxes.push_back(box_of(*word));
+    }
+    for (std::size_t i = 0; i < boxes.size(); ++i) {
+      for (std::size_t j = 0; j < i; ++j) CHECK_FALSE(boxes[i].overlaps(boxes[j]));
+    }
+    return words_of(drawing);
+  };
+  for (const std::uint32_t tet : {0U, 100U, 300U}) {
+    s.run("select_tet", {tet});
+    s.run("home");  // a tet of a few pixels
+    for (const VertexHandle v : s.document.mesh().vertices(TetHandle(tet))) {
+      CAPTURE(v.index());
+      CHECK(has(words_at(12), fmt::format("{}", v.index())));
+    }
+  }
+}

@@ -10,6 +10,7 @@
 #include <string>
 #include <thread>
 #include <utility>
+#include <vector>
 
 #include <doctest/doctest.h>
 #include <fmt/format.h>
@@ -129,7 +130,7 @@ inline bool can_test_window() {
 class Viewer {
  public:
   explicit Viewer(const std::filesystem::path& file, const std::string& size = "1000x700",
-                  const std::string& scale = "1")
+                  const std::string& scale = "1", const std::vector<std::string>& more = {})
       : display_(size) {
     const std::filesystem::path meshes = TETMEND_SOURCE_DIR "/assets/meshes";
     std::filesystem::current_path(folder_ / ".");
@@ -137,6 +138,7 @@ class Viewer {
     err_ = ::open("err", O_WRONLY | O_CREAT, 0666);
     std::vector<std::string> arguments = {"--size", size,       "--scale",
                                           scale,    "--report", "report.json"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
     if (!file.empty()) arguments.push_back((meshes / file).string());
     program_.emplace(arguments, "out", err_);
     type("search --sync --onlyvisible --name tetmend-view >/dev/null");

@@ -87,6 +87,7 @@ void run_waiting(Session& session) {
 }
 
 void run_from_window(const Command& command, Session& session, const json& arguments) {
+  session.document.begin_act();
   if (leaves_mesh(command, arguments, session.document.live) && session.document.has_unsaved()) {
     const std::string file = arguments.empty() ? "" : arguments[0].get<std::string>();
     session.document.waiting = WaitingCommand{std::string(command.name), file};

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
+#include <system_error>
 
 #include "explain/json_text.h"
 #include "viewer/commands/command_group.h"
@@ -53,10 +54,23 @@ std::string new_picture() {
   return name;
 }
 
+/// Of a picture that was written under a name that the user has not chosen.
+Offer offer_to_remove(const std::string& file) {
+  const auto remove = [path = std::filesystem::absolute(file)](Document& document) {
+    std::error_code trouble;
+    std::filesystem::remove(path, trouble);
+    document.message = {fmt::format("removed {}", path.string()), false};
+    if (trouble) document.message = {fmt::format("{}: {}", path.string(), trouble.message()), true};
+  };
+  return {fmt::format("The picture is in {}.", std::filesystem::absolute(file).string()),
+          "Remove it", remove};
+}
+
 json screenshot(Session& s, const json& a) {
   const std::string file = a.empty() ? new_picture() : Arguments("screenshot", a).text(0);
   write_png(file, s.host.render(s.document));
   s.document.message = {"wrote " + file, false};
+  if (a.empty()) s.document.offer = offer_to_remove(file);
   return nullptr;
 }
 

@@ -198,7 +198,14 @@ json to_lesson_step(Session& s, const json&) {
   }
   if (next >= steps.size()) throw Error("this is the end of the lesson");
   debugger.seek(steps[next].at);
-  return arrive(s);
+  json here = arrive(s);
+  // What it speaks of may leave the picture less room, or more.
+  const Canvas before = s.document.canvas;
+  s.host.arrange(s.document);
+  const Canvas& now_there = s.document.canvas;
+  const bool is_other = now_there.width != before.width || now_there.height != before.height;
+  if (is_other && s.document.follow_trace) s.document.fit();
+  return here;
 }
 
 json play(Session& s, const json&) {

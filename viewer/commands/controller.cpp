@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "viewer/commands/controller.h"
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <set>
 #include <sstream>
 
 #include <fmt/format.h>
@@ -46,6 +48,7 @@ void Controller::release(double x, double y, double time) {
 
 /// What lies there, and what is to be done with it.
 void Controller::ask(double x, double y) {
+  session_.document.begin_act();
   session_.document.pick(x, y);
   session_.document.offer_choices =
       !std::holds_alternative<std::monostate>(session_.document.selection());
@@ -53,6 +56,7 @@ void Controller::ask(double x, double y) {
 
 void Controller::click(double x, double y, double time) {
   constexpr double kSoon = 0.3;
+  session_.document.begin_act();
   if (time - last_click_ < kSoon) {
     session_.document.fit();  // what the first click has picked
   } else {
@@ -69,6 +73,39 @@ void Controller::scroll(double steps, double x, double y) {
 
 void Controller::key(std::string_view keys) {
   if (const Command* command = command_for_keys(keys)) run_from_window(*command, session_);
+}
+
+void Controller::letter(char letter, std::string_view keys, double time) {
+  constexpr double kSoon = 0.7;          // seconds
+  constexpr std::size_t kWord = 4;       // letters
+  constexpr std::size_t kDifferent = 3;  // of them: who holds a key down types no word
+  Document& document = session_.document;
+  if (time - word_.last > kSoon) {
+    word_ = {};
+    word_.view = document.view;
+    if (document.debugger() != nullptr) word_.position = document.debugger()->position();
+  }
+  word_.last = time;
+  word_.letters += letter;
+  document.offer.reset();
+  key(keys);
+  if (document.offer) word_.made.push_back(document.offer->take_back);  // a file was written
+  if (word_.letters.size() < kWord ||
+      std::set<char>(word_.letters.begin(), word_.letters.end()).size() < kDifferent) {
+    return;
+  }
+  document.offer = {fmt::format("\"{}\" was typed, and each letter is a key.", word_.letters),
+                    "Undo", [word = word_](Document& d) { take_back(word, d); }};
+}
+
+void Controller::take_back(const Word& word, Document& document) {
+  for (auto step = word.made.rbegin(); step != word.made.rend(); ++step) (*step)(document);
+  if (word.position && document.debugger() != nullptr &&
+      *word.position <= document.debugger()->end()) {
+    document.debugger()->seek(*word.position);
+    document.show_trace();
+  }
+  document.view = word.view;
 }
 
 void Controller::drop(const std::filesystem::path& file) {

@@ -138,6 +138,15 @@ std::string menu_text(const Command& command) {
   return std::string(command.help.substr(0, command.help.find(';')));
 }
 
+bool begins_group(const Command& command) {
+  constexpr std::array<std::string_view, 22> kFirst = {
+      "screenshot", "from_right", "undo_view",  "orthographic",  "numbers",  "reference",
+      "filter",     "cut_x",      "show_all",   "worst",         "history",  "try_operator",
+      "to_begin",   "play",       "run",        "next_accepted", "bookmark", "next_lesson_step",
+      "isolate",    "live_pause", "live_debug", "about"};
+  return std::find(kFirst.begin(), kFirst.end(), command.name) != kFirst.end();
+}
+
 std::optional<bool> is_on(const Command& command, const Document& document) {
   const ViewSettings& view = document.view;
   const SceneSettings& scene = view.scene;

@@ -12,6 +12,9 @@ namespace tetmend::viewer {
 /// "Open ...", "Step over": without full sentences, and without what is for scripts.
 std::string menu_text(const Command& command);
 
+/// A menu has a line before it: what follows is of another kind.
+bool begins_group(const Command& command);
+
 /// Of what is on or off, which of them it is; nothing of other commands. For ticks.
 std::optional<bool> is_on(const Command& command, const Document& document);
 

@@ -123,6 +123,13 @@ json trace_state_of(Document& document) {
     result["found"] = {{"condition", to_text(debugger.found()->condition)},
                        {"calls", debugger.found()->calls.size()}};
   }
+  if (debugger.other()) {
+    const RunComparison& made = debugger.other()->comparison;
+    result["against"] = {{"file", debugger.other()->file.string()},
+                         {"bad_here", made.bad_in_a},
+                         {"bad_there", made.bad_in_b},
+                         {"bad_here_good_there", made.worse_in_a.size()}};
+  }
   if (const auto visit = debugger.visit()) {
     const Visit& made = debugger.file().visits()[*visit];
     json tet = json::array();

@@ -10,8 +10,8 @@
 
 namespace tetmend::viewer {
 
-Debugger::Debugger(TraceFile file)
-    : file_(std::move(file)), replay_(file_), timeline_(make_timeline(file_, replay_)) {}
+Debugger::Debugger(TraceFile file, const TetMesh* start)
+    : file_(std::move(file)), replay_(file_), timeline_(make_timeline(file_, replay_, start)) {}
 
 Debugger::Debugger(const std::filesystem::path& file) : Debugger(TraceFile(file)) {
   lesson_ = lesson_of(file, file_.event_count());
@@ -19,6 +19,9 @@ Debugger::Debugger(const std::filesystem::path& file) : Debugger(TraceFile(file)
 
 Debugger::Debugger(const std::string& name, std::string_view bytes)
     : Debugger(TraceFile(name, bytes)) {}
+
+Debugger::Debugger(const std::string& name, std::string_view bytes, const TetMesh& start)
+    : Debugger(TraceFile(name, bytes, SlotMesh(start)), &start) {}
 
 void Debugger::seek(std::uint64_t position) {
   const std::uint32_t before = call();

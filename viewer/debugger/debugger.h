@@ -45,6 +45,9 @@ class Debugger {
   explicit Debugger(const std::filesystem::path& file);
   /// Of bytes that are in no file, see TraceRecorder::so_far(). @param name what errors call it
   Debugger(const std::string& name, std::string_view bytes);
+  /// Of events that begin with `start`, which was recorded without its mesh. Cost: as TraceFile, a
+  /// copy of the slots and a look at the quality of each tet.
+  Debugger(const std::string& name, std::string_view bytes, const TetMesh& start);
 
   const TraceFile& file() const { return file_; }
   std::uint64_t position() const { return replay_.position(); }
@@ -84,6 +87,8 @@ class Debugger {
 
   /// With the handle numbers of the run. Cost: linear, about half a second for a million tets.
   TetMesh mesh();
+  /// Instead of mesh(), for who has the mesh of now with the handle numbers of the run.
+  void know_mesh() { trace_mesh_.know(replay_); }
   /// Makes the mesh that mesh() gave last the one of now. Cost: that of what changed meanwhile.
   MeshStep follow(TetMesh& mesh) { return trace_mesh_.follow(replay_, mesh); }
   /// Tets that contain all of these vertices, by slot.
@@ -127,7 +132,7 @@ class Debugger {
   void fold(std::uint32_t call) { list_.toggle(call); }
 
  private:
-  explicit Debugger(TraceFile file);
+  explicit Debugger(TraceFile file, const TetMesh* start = nullptr);
   std::optional<std::uint64_t> nearest_breakpoint(Direction direction, Condition* which);
   ConditionSource source() { return {file_, replay_}; }
 

@@ -20,6 +20,8 @@ class TraceMesh {
  public:
   /// The mesh of now. Cost: linear.
   TetMesh begin(const Replay& replay);
+  /// follow() will be given the mesh of now.
+  void know(const Replay& replay) { seen_ = replay.changes().mark(); }
   /// Makes `mesh`, which was the replay's at the last call, the one of now.
   /// Cost: that of the tets that were written on the way; a pass over the slots after a jump to a
   /// keyframe, and a build of the whole where more than an eighth of the tets are others.

@@ -8,6 +8,7 @@
 
 #include "face/mesh_access.h"
 #include "kernel/error.h"
+#include "viewer/live/carried_data.h"
 
 namespace tetmend::viewer {
 
@@ -38,6 +39,7 @@ std::string ParameterHold::text() const {
 
 LiveJob::LiveJob(MeshData mesh, const Standard& shown, LivePlan plan)
     : data_(std::move(mesh)),
+      has_more_(holds_more_than_mesh(data_)),
       shown_by_(shown),
       plan_(std::move(plan)),
       demand_(plan_.paused ? Demand::pause : Demand::go_on),
@@ -117,12 +119,24 @@ std::unique_ptr<MeasuredMesh> LiveJob::take_snapshot() {
   return std::move(snapshot_);
 }
 
-std::string LiveJob::last_calls() const {
-  const std::lock_guard lock(lock_);  // a thread that is held waits for it before it goes on
+/// Under the lock: a thread that is held waits for it before it goes on.
+void LiveJob::need_rest() const {
   if (!is_over_ && state_now() != LiveState::paused) {
     throw Error("the run is still at work: pause it first");
   }
+}
+
+std::string LiveJob::last_calls() const {
+  const std::lock_guard lock(lock_);
+  need_rest();
   return memory_.look();
+}
+
+std::shared_ptr<const MeshData> LiveJob::whole_data() const {
+  if (!has_more_) return nullptr;
+  const std::lock_guard lock(lock_);
+  need_rest();
+  return is_over_ ? result_ : std::make_shared<const MeshData>(so_far_());
 }
 
 // ---- The thread ---------------------------------------------------------------------------------
@@ -131,6 +145,7 @@ void LiveJob::work() {
   std::string trouble = trouble_of([&] { run(); });
   run_ = nullptr;
   mesh_ = nullptr;
+  so_far_ = nullptr;
   const auto then = [&](const auto& step) {
     const std::string more = trouble_of(step);
     if (trouble.empty()) trouble = more;
@@ -141,7 +156,9 @@ void LiveJob::work() {
   });
   const bool has_trace = recorder_ && trouble.empty();
   recorder_.reset();
+  std::shared_ptr<const MeshData> whole;
   then([&] {
+    if (has_more_) whole = std::make_shared<const MeshData>(data_);
     TetMesh result = TetMesh::build(data_, {.sorted = false});
     result.set_standard(shown_by_);
     snap(std::move(result));
@@ -150,6 +167,7 @@ void LiveJob::work() {
     const std::lock_guard lock(lock_);
     is_over_ = true;
     end_ = Clock::now();
+    result_ = std::move(whole);
     shown_.error = trouble;
     if (has_trace) shown_.trace = plan_.trace.string();
     shown_.state = !trouble.empty() ? LiveState::failed
@@ -176,8 +194,9 @@ void LiveJob::run() {
   data_ = MeshAccess::take(mesh);
 }
 
-TraceSink* LiveJob::follow(Run& run) {
+TraceSink* LiveJob::follow(Run& run, const face::DataSoFar& so_far) {
   run_ = &run;
+  so_far_ = so_far;
   mesh_ = &run.mesh();
   const QualityIndicators before = quality_indicators(*mesh_);
   parameters_held_ = 0;

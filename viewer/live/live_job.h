@@ -93,6 +93,10 @@ class LiveJob final : private TraceSink, private face::Follower {
   /// or over, and at ends of passes as long as they slow the run by less than a tenth.
   std::unique_ptr<MeasuredMesh> take_snapshot();
 
+  /// The mesh with all that its file holds besides, as the run has it now. Null: there was nothing
+  /// besides. @throws Error when the run is neither paused nor over. Cost: n log n while it is paused.
+  std::shared_ptr<const MeshData> whole_data() const;
+
   /// A trace of the last calls of the schedule, at least kRemembered or all since it began, with the
   /// one under way. Empty: there was none. @throws Error when the run is neither paused nor over.
   std::string last_calls() const;
@@ -104,7 +108,8 @@ class LiveJob final : private TraceSink, private face::Follower {
 
   void work();
   void run();
-  TraceSink* follow(Run& run) override;
+  TraceSink* follow(Run& run, const face::DataSoFar& so_far) override;
+  void need_rest() const;
   void begin_traces();
   void tell(const auto& event);
   void take_parameters();
@@ -137,7 +142,9 @@ class LiveJob final : private TraceSink, private face::Follower {
 
   // Of the thread alone.
   MeshData data_;                  // before the run and after it
+  const bool has_more_;            // than a mesh
   Run* run_ = nullptr;             // meanwhile
+  face::DataSoFar so_far_;         // likewise
   const TetMesh* mesh_ = nullptr;  // likewise
   const Standard shown_by_;
   LivePlan plan_;
@@ -172,6 +179,7 @@ class LiveJob final : private TraceSink, private face::Follower {
   Clock::time_point end_;         // when over
   Clock::duration held_{0};       // altogether
   std::unique_ptr<MeasuredMesh> snapshot_;
+  std::shared_ptr<const MeshData> result_;  // when over, with what else there is
 
   std::thread thread_;  // last: it uses the rest
 };

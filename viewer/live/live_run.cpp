@@ -148,6 +148,10 @@ void LiveRun::ask(Demand demand) {
   job_->ask(demand);
 }
 
+std::shared_ptr<const MeshData> LiveRun::whole_data() const {
+  return job_ ? job_->whole_data() : nullptr;
+}
+
 std::string LiveRun::last_calls() const {
   if (!job_) throw Error("there was no run yet");
   return job_->last_calls();

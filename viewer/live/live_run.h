@@ -76,6 +76,8 @@ class LiveRun {
   /// As LiveJob::wait(); at once when nothing is at work.
   LiveState wait(double seconds) const { return job_ ? job_->wait(seconds) : LiveState::idle; }
   std::unique_ptr<MeasuredMesh> take_snapshot() { return job_ ? job_->take_snapshot() : nullptr; }
+  /// As LiveJob::whole_data(); null before the first run. @throws Error as that
+  std::shared_ptr<const MeshData> whole_data() const;
   /// As LiveJob::last_calls(). @throws Error as that, and before the first run.
   std::string last_calls() const;
   /// From the next pass on an operator of the run has another value.

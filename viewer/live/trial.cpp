@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "viewer/live/trial.h"
 
-#include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include <fmt/format.h>
 
-#include "kernel/mesh_view.h"
 #include "schedule/run.h"
 #include "schedule/single_attempt.h"
 #include "trace/recorder.h"
@@ -16,21 +14,8 @@ namespace tetmend::viewer {
 
 namespace {
 
-/// Slots of vertices as a view of the mesh counts them.
-std::vector<std::uint32_t> numbers_of(const TetMesh& mesh, std::span<const VertexHandle> vertices) {
-  const MeshView view(mesh);
-  const auto slots = view.vertex_slots();
-  std::vector<std::uint32_t> numbers;
-  for (const VertexHandle v : vertices) {
-    std::uint32_t number = v.index();
-    if (!slots.empty()) {
-      const auto found = std::find(slots.begin(), slots.end(), v.index());
-      if (found == slots.end()) throw Error(fmt::format("there is no vertex {}", v.index()));
-      number = static_cast<std::uint32_t>(found - slots.begin());
-    }
-    numbers.push_back(number);
-  }
-  return numbers;
+Composition composition_of(const TrialRequest& request) {
+  return {.operator_name = request.operator_name, .settings = request.settings};
 }
 
 std::string in_words(const Call& call) {
@@ -64,23 +49,22 @@ std::size_t vertices_of(TargetKind kind) {
 
 Trial::Trial(const TetMesh& mesh, const Registry& registry, TrialRequest request,
              const std::string& file)
-    : request_(std::move(request)), result_(mesh) {
+    : request_(std::move(request)), mesh_(mesh) {
   TraceHeader header;
   header.program = "tetmend-view";
   header.input = file;
   header.schedule = "a trial of " + request_.operator_name;
-  std::string trace;
+  std::string events;
   {
-    TraceRecorder recorder(trace, result_, std::move(header));
-    Run run(result_, registry);
+    TraceRecorder recorder(events, mesh_, std::move(header), TraceClock::real,
+                           TraceBeginning::without_mesh);
+    Run run(mesh_, registry);
     run.set_trace(&recorder);
-    attempt_once(run,
-                 {.what = {.operator_name = request_.operator_name, .settings = request_.settings},
-                  .vertices = numbers_of(result_, request_.target)});
+    attempt_at(run, composition_of(request_), request_.target);
     run.set_trace(nullptr);
     recorder.finish();
   }
-  debugger_ = std::make_unique<Debugger>("the trial", trace);
+  debugger_ = std::make_unique<Debugger>("the trial", events, mesh);
   const auto calls = debugger_->file().calls();
   if (calls.empty()) throw Error(request_.operator_name + ": nothing here may be changed");
   call_ = calls.front();
@@ -88,6 +72,12 @@ Trial::Trial(const TetMesh& mesh, const Registry& registry, TrialRequest request
   outcome_ = in_words(call_);
   seconds_ = call_.events.seconds();
   debugger_->seek(call_.events.end);
+  debugger_->know_mesh();
+}
+
+void Trial::make_on(TetMesh& mesh, const Registry& registry) const {
+  Run run(mesh, registry);
+  attempt_at(run, composition_of(request_), request_.target);
 }
 
 }  // namespace tetmend::viewer

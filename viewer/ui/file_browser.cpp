@@ -117,7 +117,10 @@ std::filesystem::path FileBrowser::named() const {
 
 void FileBrowser::list(float scale) {
   constexpr float kHeight = 320;
-  ImGui::BeginChild("##entries", {0, kHeight * scale}, true);
+  constexpr float kOthers = 7;  // lines of the dialog above and below
+  const float room = ImGui::GetIO().DisplaySize.y - kOthers * ImGui::GetFrameHeightWithSpacing();
+  const float least = 2 * ImGui::GetTextLineHeightWithSpacing();
+  ImGui::BeginChild("##entries", {0, std::clamp(room, least, kHeight * scale)}, true);
   std::filesystem::path next;
   if (ImGui::Selectable("../", false, ImGuiSelectableFlags_DontClosePopups)) {
     next = folder_.parent_path();
@@ -206,9 +209,12 @@ void FileBrowser::draw(Session& session, float scale) {
     session.document.question = FileQuestion::none;
     ImGui::OpenPopup(kPopup);
   }
-  ImGui::SetNextWindowSize({kWidth * scale, 0});
-  if (!ImGui::BeginPopupModal(kPopup, nullptr,
-                              ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoTitleBar)) {
+  const ImVec2 window = ImGui::GetIO().DisplaySize;
+  ImGui::SetNextWindowPos({window.x / 2, window.y / 2}, ImGuiCond_Always, {0.5F, 0.5F});
+  ImGui::SetNextWindowSize({std::min(kWidth * scale, window.x), 0});
+  if (!ImGui::BeginPopupModal(
+          kPopup, nullptr,
+          ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoMove)) {
     return;
   }
   ImGui::TextUnformatted(title_of(question_));

@@ -20,6 +20,7 @@
 #include "viewer/ui/drawing_canvas.h"
 #include "viewer/ui/panels.h"
 #include "viewer/ui/timeline_strip.h"
+#include "viewer/ui/wrapped_text.h"
 
 namespace tetmend::viewer::ui {
 
@@ -99,7 +100,9 @@ Choice menu(Document& document) {
       if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", c_text(command.help));
     };
     for (const Command& command : commands()) {
-      if (command.menu == title && &command != &quit) offer(command);
+      if (command.menu != title || &command == &quit) continue;
+      if (begins_group(command)) ImGui::Separator();
+      offer(command);
     }
     if (quit.menu == title) {  // the last
       Choice again = recent_menu(document);
@@ -184,36 +187,101 @@ Area dock_algorithm(const Session& session, Area& area, float share) {
   return dock(area, std::min(algorithm_height(session), share * area.height));
 }
 
+/// What is spoken of, one below the other, the algorithm last; nothing needs to be scrolled to.
 void teach(Session& session, const Layout& layout) {
   constexpr float kMostOfColumn = 0.56F;
-  Area above = layout.right;
-  const Area code = dock_algorithm(session, above, kMostOfColumn);
-  if (begin("##teaching", above)) {
-    draw_stack(session);
-    draw_ring(session);
-    ImGui::End();
+  const auto shows = [&](Focus focus) {
+    return std::find(layout.focus.begin(), layout.focus.end(), focus) != layout.focus.end();
+  };
+  const int others =
+      (shows(Focus::ring) ? 1 : 0) + (shows(Focus::tables) ? 1 : 0) + (shows(Focus::tree) ? 1 : 0);
+  Area column = layout.right;
+  Area code;
+  if (shows(Focus::algorithm)) {
+    code = dock_algorithm(session, column, others == 0 ? 1 : kMostOfColumn);
   }
+  const float height = column.height / static_cast<float>(std::max(others, 1));
+  const auto show = [&](Focus focus, const char* name, void (*draw)(Session&)) {
+    if (!shows(focus) || column.is_empty()) return;
+    if (begin(name, {column.x, column.y, column.width, height})) {
+      draw(session);
+      ImGui::End();
+    }
+    column.y += height;
+  };
+  show(Focus::tree, "##tree", &draw_tree);
+  show(Focus::ring, "##teaching", [](Session& s) {
+    constexpr std::size_t kMostCalls = 2;
+    draw_stack(s, kMostCalls);
+    draw_ring(s);
+  });
+  show(Focus::tables, "##tables", &draw_tables);
   if (begin("##code", code)) {
-    draw_algorithm_panel(session);
+    constexpr bool kWhole = true;
+    draw_algorithm_panel(session, kWhole);
     ImGui::End();
   }
   if (begin("##lesson", layout.strip)) {
-    if (session.document.debugger()->lesson()) draw_lesson_panel(session);
-    draw_last_event(session);
+    if (session.document.debugger()->lesson()) {
+      draw_lesson_panel(session);
+    } else {
+      draw_last_event(session);
+    }
     ImGui::End();
   }
+}
+
+/// An error is not to be overlooked, and what is long would be cut.
+bool needs_toast(const Message& message, float width) {
+  constexpr float kMost = 0.75F;
+  if (message.text.empty()) return false;
+  return message.is_error || ImGui::CalcTextSize(message.text.c_str()).x > kMost * width;
+}
+
+/// Over the picture, until the next act: what the status line does not say, and what can be taken
+/// back.
+void show_toast(Document& document, const Area& canvas, float width) {
+  const bool is_said = needs_toast(document.message, width);
+  if (!is_said && !document.offer) return;
+  constexpr float kLetters = 44;
+  const float margin = ImGui::GetFontSize();
+  const float most = std::max(canvas.width - 2 * margin, 8 * margin);
+  ImGui::SetNextWindowPos({canvas.x + canvas.width / 2, canvas.y + margin / 2}, ImGuiCond_Always,
+                          {0.5F, 0});
+  ImGui::SetNextWindowSize({std::min(most, kLetters * margin), 0});
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 1);
+  ImGui::Begin("##toast", nullptr,
+               ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoTitleBar |
+                   ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav);
+  if (is_said) {
+    const bool is_dark = document.view.theme == "dark";
+    const ImVec4 red = is_dark ? ImVec4{1, 0.55F, 0.5F, 1} : ImVec4{0.72F, 0.1F, 0.1F, 1};
+    const ImVec4 ink = ImGui::GetStyleColorVec4(ImGuiCol_Text);
+    ImGui::PushStyleColor(ImGuiCol_Text, document.message.is_error ? red : ink);
+    wrapped_text(document.message.text);
+    ImGui::PopStyleColor();
+  }
+  if (document.offer) {
+    wrapped_text(document.offer->text);
+    if (ImGui::Button(document.offer->button.c_str())) {
+      const Offer offer = std::move(*document.offer);
+      document.offer.reset();
+      guarded(document, [&] { offer.take_back(document); });
+    }
+  }
+  ImGui::End();
+  ImGui::PopStyleVar();
 }
 
 void show_status(Session& session, const Area& area, float scale) {
   const Document& document = session.document;
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {8 * scale, 3 * scale});
   if (begin("##status", area, ImGuiWindowFlags_NoScrollbar)) {
-    if (document.message.is_error) {
-      ImGui::TextColored({0.85F, 0.2F, 0.2F, 1}, "%s", document.message.text.c_str());
-    } else if (document.has_mesh()) {
+    if (document.has_mesh()) {
       const Scene& scene = session.document.scene();
-      ImGui::TextUnformatted(document.message.text.c_str());
-      ImGui::SameLine();
+      const bool is_elsewhere = needs_toast(document.message, area.width);
+      if (!is_elsewhere) ImGui::TextUnformatted(document.message.text.c_str());
+      if (!is_elsewhere) ImGui::SameLine();
       ImGui::TextDisabled("  shown: %s  %s", grouped(scene.tets_shown).c_str(), scene.note.c_str());
     } else {
       ImGui::TextDisabled("drop a mesh or a trace here, or press Ctrl+O; F1 shows all keys");
@@ -298,6 +366,7 @@ void Interface::apply_theme(const std::string& theme) {
     style.Colors[ImGuiCol_TextDisabled] = {0.36F, 0.40F, 0.46F, 1};
     style.Colors[ImGuiCol_CheckMark] = {0.10F, 0.38F, 0.78F, 1};  // links have it, too: 5 to 1
   }
+  style.Colors[ImGuiCol_PopupBg].w = 1;  // nothing shines through
   ImGui::GetStyle() = style;
 }
 
@@ -333,6 +402,7 @@ void Interface::build(Session& session) {
     place_dialog_.draw(session);
     unsaved_dialog_.draw(session);
     if (document.opening() != nullptr) show_opening(*document.opening());
+    show_toast(document, layout.canvas, static_cast<float>(document.window.width));
   });
   if (!is_whole) ImGui::ErrorCheckEndFrameRecover(nullptr);
   ImGui::PushFont(font);

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <string>
 
 namespace tetmend::viewer::ui {
 
@@ -18,18 +20,70 @@ constexpr float kOnlySideWidth = 390;
 constexpr float kLowStripHeight = 170;
 constexpr float kMenuHeight = 24;
 constexpr float kStatusHeight = 26;
-constexpr float kTeachingWidth = 0.38F;  // of the window
-constexpr float kTeachingHeight = 250;
+constexpr float kTeachingWidth = 0.38F;     // of the window
+constexpr float kWideTeachingWidth = 0.5F;  // where the picture is not spoken of
+constexpr float kTeachingHeight = 250;      // without a text
+constexpr float kMostTextHeight = 0.45F;    // of the window
 constexpr float kLeastTeachingWidth = 1100;
 constexpr float kLeastTeachingHeight = 680;
 
-void teach(Layout& layout, float width, float top, float bottom, float scale) {
+/// What the lesson speaks of here; nothing between its steps, and without a lesson.
+std::vector<Focus> focus_of(const Debugger& debugger) {
+  std::vector<Focus> focus;
+  if (debugger.lesson()) {
+    for (const LessonStep& step : debugger.lesson()->steps) {
+      if (step.at == debugger.position()) {
+        focus.insert(focus.end(), step.focus.begin(), step.focus.end());
+      }
+    }
+  }
+  if (focus.empty()) return focus;
+  if (debugger.call() == kNoCall) {  // there is none to be drawn
+    std::erase(focus, Focus::ring);
+    std::erase(focus, Focus::tables);
+  }
+  if (focus.empty()) focus = {Focus::picture};
+  std::sort(focus.begin(), focus.end());
+  focus.erase(std::unique(focus.begin(), focus.end()), focus.end());
+  return focus;
+}
+
+/// For the longest step, so that its buttons stay where they are: title, buttons, text, question.
+float height_of_text(const Debugger& debugger, float width, float most, float scale) {
+  if (!debugger.lesson()) return kTeachingHeight * scale;
+  constexpr float kLetter = 0.58F;  // of the size of the text, at most
+  const float size = 16 * kTeachingText * scale;
+  const float letters = (width - 2 * size) / (kLetter * size);
+  const auto lines_of = [&](const std::string& text) {
+    return std::ceil(static_cast<float>(text.size()) / letters);
+  };
+  std::map<std::uint64_t, float> lines;  // of all steps at one place
+  for (const LessonStep& step : debugger.lesson()->steps) {
+    lines[step.at] += lines_of(step.text) + (step.ask ? lines_of(step.ask->text) : 0);
+  }
+  float longest = 1;
+  for (const auto& [at, count] : lines) longest = std::max(longest, count);
+  return std::min(most, (1.35F * longest + 3.6F) * size);
+}
+
+/// At a step of a lesson the text stands below picture and column; elsewhere the column, for ring and
+/// algorithm, is as high as the window.
+void teach(const Debugger& debugger, Layout& layout, float width, float top, float bottom,
+           float scale) {
   layout.is_teaching = true;
   layout.text = kTeachingText;
-  const float side = std::round(kTeachingWidth * width);
-  const float strip = kTeachingHeight * scale;
-  layout.right = {width - side, top, side, bottom - top};
-  layout.strip = {0, bottom - strip, width - side, strip};
+  layout.focus = focus_of(debugger);
+  const bool is_step = !layout.focus.empty();
+  if (!is_step) layout.focus = {Focus::picture, Focus::ring, Focus::algorithm};
+  const bool has_picture = layout.focus.front() == Focus::picture;
+  const bool has_column = layout.focus.back() != Focus::picture;
+  const float share = !has_column ? 0 : has_picture ? kTeachingWidth : kWideTeachingWidth;
+  const float side = std::round(share * width);
+  const float strip =
+      std::round(height_of_text(debugger, width, kMostTextHeight * (bottom - top), scale));
+  layout.strip = {0, bottom - strip, is_step ? width : width - side, strip};
+  const float below = is_step ? strip : 0;
+  if (has_column) layout.right = {width - side, top, side, bottom - below - top};
   layout.canvas = {0, top, width - side, bottom - strip - top};
 }
 
@@ -50,7 +104,7 @@ Layout lay_out(const Document& document, float scale) {
   const bool has_trace = document.debugger() != nullptr;
   if (has_trace && document.teaching && width >= kLeastTeachingWidth * scale &&
       height >= kLeastTeachingHeight * scale) {
-    teach(layout, width, top, bottom, scale);
+    teach(*document.debugger(), layout, width, top, bottom, scale);
     return layout;
   }
   const bool is_narrow = has_trace && width < kLeastForTwo * scale;

@@ -2,6 +2,8 @@
 // Where picture, columns of panels, strip and status line are.
 #pragma once
 
+#include <vector>
+
 #include "viewer/document.h"
 
 namespace tetmend::viewer::ui {
@@ -21,7 +23,8 @@ struct Layout {
   bool is_one_column =
       false;  ///< no room for two: all panels are in the right one, of a trace in tabs
   bool is_teaching = false;
-  float text = 1;  ///< size of text in panels, in units of the usual one
+  std::vector<Focus> focus;  ///< while teaching: what the right column shows
+  float text = 1;            ///< size of text in panels, in units of the usual one
 };
 
 /// Larger text for a lecture hall.

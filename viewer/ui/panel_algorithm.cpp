@@ -19,32 +19,36 @@ constexpr float kCallerLines = 4.5F;  // below the code, with t
 constexpr float kNumbers = 2.2F;      // width of their column, in units of the text
 constexpr float kGap = 1;             // between its lines, in pixels
 
-/// As high as all lines, or as there is room for.
-void begin_lines(const Pseudocode& code) {
+/// As high as all lines, or as there is room for. Gives how much smaller the lines must be to be seen
+/// all.
+float begin_lines(const Pseudocode& code, float lines_below) {
   const float all =
       static_cast<float>(code.lines.size()) * (ImGui::GetTextLineHeight() + kGap) + 4 * kGap;
   const float room =
-      ImGui::GetContentRegionAvail().y - kCallerLines * ImGui::GetTextLineHeightWithSpacing();
+      ImGui::GetContentRegionAvail().y - lines_below * ImGui::GetTextLineHeightWithSpacing();
   ImGui::BeginChild("##lines", {0, std::min(all, std::max(room, 3 * ImGui::GetFontSize()))});
+  return std::min(1.0F, room / all);
 }
 
-/// Of the current window: so that no line is cut.
-void shrink_text(const Pseudocode& code) {
+/// Of the current window: `share` of their size, or less, so that no line is cut.
+void shrink_text(const Pseudocode& code, float share) {
   constexpr float kLeast = 0.6F;
+  ImGui::SetWindowFontScale(1);
   float widest = 0;
   for (const std::string_view line : code.lines) {
     widest = std::max(widest, ImGui::CalcTextSize(line.data()).x);  // literals
   }
   const float needed = widest + kNumbers * ImGui::GetFontSize();
-  const float room = ImGui::GetContentRegionAvail().x;
-  if (needed > room) ImGui::SetWindowFontScale(std::max(kLeast, room / needed));
+  const float fitting = std::min(share, ImGui::GetContentRegionAvail().x / needed);
+  if (fitting < 1) ImGui::SetWindowFontScale(std::max(kLeast, fitting));
 }
 
 /// `is_new`: the line is to be brought into sight.
-void show_code(const Pseudocode& code, unsigned line, bool is_new) {
+void show_code(const Pseudocode& code, unsigned line, bool is_new, bool is_whole) {
   ImGui::TextWrapped("%s", code.title.data());
-  begin_lines(code);
-  shrink_text(code);
+  constexpr float kFew = 3.2F;  // of the caller, where the column is wide
+  const float share = begin_lines(code, is_whole ? kFew : kCallerLines);
+  shrink_text(code, is_whole ? share : 1);
   ImDrawList* list = ImGui::GetWindowDrawList();
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {ImGui::GetStyle().ItemSpacing.x, kGap});
   for (unsigned i = 1; i <= code.lines.size(); ++i) {
@@ -90,7 +94,7 @@ float algorithm_height(const Session& session) {
          2 * ImGui::GetStyle().WindowPadding.y;
 }
 
-void draw_algorithm_panel(Session& session) {
+void draw_algorithm_panel(Session& session, bool is_whole) {
   const Debugger& debugger = *session.document.debugger();
   const auto& stack = debugger.stack();
   const auto place_of = [&](std::size_t i) {
@@ -102,7 +106,7 @@ void draw_algorithm_panel(Session& session) {
     if (!stack.empty()) ImGui::TextDisabled("an operator that is not described");
     return;
   }
-  show_code(*here.code, here.line, is_new_place(debugger.position()));
+  show_code(*here.code, here.line, is_new_place(debugger.position()), is_whole);
   const auto visit = debugger.visit();
   if (visit && pass.code != nullptr) {
     const Visit& made = debugger.file().visits()[*visit];

@@ -144,13 +144,10 @@ float table_height() {
   return std::clamp(room, kLeastRows * row, kMostRows * row);
 }
 
-}  // namespace
-
-void draw_calls_panel(Session& session) {
+void list_rows(Session& session, float height) {
   Debugger& debugger = *session.document.debugger();
   const std::vector<CallRow>& rows = debugger.rows();
   constexpr ImGuiTableFlags kLooks = ImGuiTableFlags_RowBg | ImGuiTableFlags_ScrollY;
-  const float height = table_height();
   if (!ImGui::BeginTable("##calls", 3, kLooks, {0, height})) return;
   const float font = ImGui::GetFontSize();
   ImGui::TableSetupScrollFreeze(0, 1);
@@ -167,7 +164,17 @@ void draw_calls_panel(Session& session) {
     }
   }
   ImGui::EndTable();
+}
+
+}  // namespace
+
+void draw_calls_panel(Session& session) {
+  list_rows(session, table_height());
   explain_marks();
+}
+
+void draw_tree(Session& session) {
+  list_rows(session, ImGui::GetContentRegionAvail().y);
 }
 
 }  // namespace tetmend::viewer::ui

@@ -132,7 +132,8 @@ void draw_display_panel(Session& session) {
   ImGui::Checkbox("beyond cuts", &scene.bad_beyond_cuts);
   ImGui::EndDisabled();
   slide("bad below", scene.bad_below, 0, 2, "%.2f");
-  if (ImGui::IsItemHovered()) ImGui::SetTooltip("1: the goal is just met");
+  if (ImGui::IsItemHovered())
+    ImGui::SetTooltip("tets of a lower quality are bad; with 1 the goal is just met");
   ImGui::Checkbox("edges", &view.edges);
   ImGui::SameLine();
   ImGui::Checkbox("constraints", &scene.constraints);

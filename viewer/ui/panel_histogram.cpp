@@ -5,6 +5,8 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
+#include "figure/drawing.h"
+#include "kernel/grouped.h"
 #include "viewer/mesh/tet_values.h"
 #include "viewer/ui/drawing_canvas.h"
 #include "viewer/ui/panels.h"
@@ -59,6 +61,34 @@ void draw_brush(const Histogram& histogram, const SceneSettings& scene, ImVec2 c
                                       ImGui::GetColorU32(ImGuiCol_Text), 0, 0, 1.5F);
 }
 
+/// Ticks below the bars; of the quality, a line where the goal is just met.
+void draw_axis(const Histogram& histogram, const std::string& measure, ImVec2 corner, ImVec2 size) {
+  constexpr unsigned kTicks = 5;
+  ImDrawList* list = ImGui::GetWindowDrawList();
+  const Range& range = histogram.range();
+  const ImU32 ink = ImGui::GetColorU32(ImGuiCol_Text);
+  const float bottom = corner.y + size.y;
+  const auto place = [&](double value) {
+    return corner.x + size.x * static_cast<float>((value - range.low) / (range.high - range.low));
+  };
+  const auto tick = [&](double value, const std::string& text) {
+    const float width = ImGui::CalcTextSize(text.c_str()).x;
+    const float x = place(value);
+    const float left = std::clamp(x - width / 2, corner.x, corner.x + size.x - width);
+    list->AddLine({x, bottom}, {x, bottom + 4}, ink);
+    list->AddText({left, bottom + 4}, ink, text.c_str());
+  };
+  for (const double value : figure::ticks(range.low, range.high, kTicks)) {
+    tick(value, figure::tick_text(value));
+  }
+  ImGui::Dummy({size.x, ImGui::GetTextLineHeight() + 2});
+  if (find_tet_value(measure).measure != nullptr) return;
+  constexpr double kGoal = 1;  // of the quality that the mesh stores
+  const float x = place(kGoal);
+  list->AddLine({x, corner.y}, {x, bottom}, ink, 1.5F);
+  list->AddText({x + 4, corner.y + 1}, ink, "goal");
+}
+
 void follow_mouse(const Histogram& histogram, SceneSettings& scene, float left, float width) {
   if (ImGui::IsItemActive() && ImGui::IsMouseDragging(0, 2)) {
     const double from = (ImGui::GetIO().MouseClickedPos[0].x - left) / width;
@@ -95,12 +125,8 @@ void draw_histogram_panel(Session& session) {
   draw_brush(histogram, scene, corner, size);
   explain_bin(histogram, corner.x, size.x);
 
-  const std::string high = fmt::format("{:.3g}", histogram.range().high);
-  ImGui::Text("%.3g", histogram.range().low);
-  ImGui::SameLine();
-  ImGui::TextDisabled("tets, logarithmic");
-  ImGui::SameLine(ImGui::GetContentRegionMax().x - ImGui::CalcTextSize(high.c_str()).x);
-  ImGui::TextUnformatted(high.c_str());
+  draw_axis(histogram, scene.measure, corner, size);
+  ImGui::TextDisabled("height: tets, logarithmic; most %s", grouped(histogram.largest()).c_str());
   ImGui::Checkbox("filter", &scene.filtered);
   ImGui::SameLine();
   ImGui::Checkbox("outside", &scene.outside);

@@ -17,7 +17,7 @@ void draw_lesson_panel(Session& session) {
   if (ImGui::Button("next")) run_from_window(find_command("next_lesson_step"), session);
   ImGui::SameLine();
   ImGui::TextDisabled("step %zu of %zu", step ? *step + 1 : 0, lesson.steps.size());
-  if (!step) return;
+  if (!step || lesson.steps[*step].at != debugger.position()) return draw_last_event(session);
   for (const LessonStep& told : lesson.steps) {  // all that are at this position
     if (told.at != lesson.steps[*step].at) continue;
     wrapped_text(told.text);

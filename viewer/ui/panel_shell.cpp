@@ -85,15 +85,19 @@ void show_table(Document& document, const ShellPicture& shell, bool is_quality) 
   ImGui::EndTable();
 }
 
+void explain_tables() {
+  wrapped_text(
+      "best worst quality of the pocket from the row on to the column, and the corner of "
+      "its triangle at the chord");
+}
+
 /// Rows and columns are vertices of the ring; a cell is the pocket from its row on to its column.
 void show_tables(Document& document, const ShellPicture& shell) {
   if (shell.tables.size == 0) return;
   if (!ImGui::TreeNodeEx("tables M_q and M_k (Algorithm 2)", ImGuiTreeNodeFlags_NoTreePushOnOpen)) {
     return;
   }
-  wrapped_text(
-      "best worst quality of the pocket from the row on to the column, and the corner of "
-      "its triangle at the chord");
+  explain_tables();
   show_table(document, shell, true);
   show_table(document, shell, false);
 }
@@ -185,6 +189,31 @@ void draw_shell_panel(Session& session) {
   if (!has_polygon) return;
   list_chords(document, *polygon->shell);
   show_tables(document, *polygon->shell);
+}
+
+void draw_tables(Session& session) {
+  constexpr float kLeast = 0.5F;
+  constexpr float kLines = 4;      // beside those of a table: words, gaps
+  constexpr float kColumn = 2.8F;  // in sizes of the text
+  const CallStudy* study = session.document.debugger()->study();
+  if (study == nullptr || !study->picture) return;
+  const PolygonView polygon = session.document.debugger()->polygon();
+  const ShellPicture& shell = *polygon.shell;
+  if (shell.tables.size == 0) return ImGui::TextDisabled("no tables were filled in");
+  ImGui::SetWindowFontScale(1);
+  const auto columns = static_cast<float>(shell.tables.size + 1);
+  const float row = ImGui::GetTextLineHeight() + 2 * ImGui::GetStyle().CellPadding.y;
+  const ImVec2 room = ImGui::GetContentRegionAvail();
+  const float fitting = std::min(room.y / ((columns + kLines) * row),
+                                 room.x / (2 * columns * kColumn * ImGui::GetFontSize()));
+  if (fitting < 1) ImGui::SetWindowFontScale(std::max(kLeast, fitting));
+  explain_tables();
+  if (!ImGui::BeginTable("##both", 2)) return;
+  for (const bool is_quality : {true, false}) {
+    ImGui::TableNextColumn();
+    show_table(session.document, shell, is_quality);
+  }
+  ImGui::EndTable();
 }
 
 void draw_ring(Session& session) {

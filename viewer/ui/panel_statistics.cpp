@@ -14,21 +14,31 @@ namespace {
 
 struct Row {
   const char* name;
+  const char* help;
   std::string (*value)(const MeshStatistics& s);
 };
 
 constexpr Row kRows[] = {
-    {"tets", [](const MeshStatistics& s) { return grouped(s.tets); }},
-    {"vertices", [](const MeshStatistics& s) { return grouped(s.vertices); }},
-    {"triangles", [](const MeshStatistics& s) { return grouped(s.boundary_triangles); }},
-    {"theta_min", [](const MeshStatistics& s) { return fmt::format("{:.3f}°", s.theta_min); }},
-    {"theta_max", [](const MeshStatistics& s) { return fmt::format("{:.3f}°", s.theta_max); }},
-    {"lambda", [](const MeshStatistics& s) { return fmt::format("{:.3f} %", s.lambda); }},
-    {"bad tets", [](const MeshStatistics& s) { return grouped(s.n_bad); }},
-    {"worst sine", [](const MeshStatistics& s) { return fmt::format("{:.4f}", s.q_worst); }},
-    {"mean bad sine", [](const MeshStatistics& s) { return fmt::format("{:.4f}", s.q_aver); }},
-    {"inverted", [](const MeshStatistics& s) { return grouped(s.inverted); }},
-    {"volume", [](const MeshStatistics& s) { return volume_text(s, 6); }},
+    {"tets", "in the mesh", [](const MeshStatistics& s) { return grouped(s.tets); }},
+    {"vertices", "in the mesh", [](const MeshStatistics& s) { return grouped(s.vertices); }},
+    {"triangles", "of its boundary",
+     [](const MeshStatistics& s) { return grouped(s.boundary_triangles); }},
+    {"smallest angle", "theta_min: between two faces of a tet",
+     [](const MeshStatistics& s) { return fmt::format("{:.3f}°", s.theta_min); }},
+    {"largest angle", "theta_max: between two faces of a tet",
+     [](const MeshStatistics& s) { return fmt::format("{:.3f}°", s.theta_max); }},
+    {"bad angles", "lambda: their share of all angles",
+     [](const MeshStatistics& s) { return fmt::format("{:.3f} %", s.lambda); }},
+    {"bad tets", "n_bad: they miss the goal",
+     [](const MeshStatistics& s) { return grouped(s.n_bad); }},
+    {"worst sine", "q_worst: quality of the worst tet",
+     [](const MeshStatistics& s) { return fmt::format("{:.4f}", s.q_worst); }},
+    {"mean bad sine", "q_aver: mean quality of the bad tets",
+     [](const MeshStatistics& s) { return fmt::format("{:.4f}", s.q_aver); }},
+    {"inverted", "tets without a positive volume",
+     [](const MeshStatistics& s) { return grouped(s.inverted); }},
+    {"volume", "of all tets, in cubes of the lengths of the file",
+     [](const MeshStatistics& s) { return volume_text(s, 6); }},
 };
 
 }  // namespace
@@ -39,7 +49,7 @@ void draw_statistics_panel(Session& session) {
   if (!ImGui::BeginTable("##statistics", before ? 3 : 2, ImGuiTableFlags_RowBg)) return;
   if (before) {
     ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthFixed,
-                            ImGui::CalcTextSize("mean bad sine").x);
+                            ImGui::CalcTextSize("smallest angle").x);
     ImGui::TableSetupColumn("before");
     ImGui::TableSetupColumn("now");
     ImGui::TableHeadersRow();
@@ -48,6 +58,7 @@ void draw_statistics_panel(Session& session) {
     ImGui::TableNextRow();
     ImGui::TableNextColumn();
     ImGui::TextDisabled("%s", row.name);
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", row.help);
     if (before) {
       ImGui::TableNextColumn();
       ImGui::TextUnformatted(row.value(*before).c_str());

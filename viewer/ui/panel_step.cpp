@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Where the trace is: the stack as a breadcrumb, what happened last, why, and the way on.
+#include <algorithm>
+
 #include <fmt/format.h>
 #include <imgui.h>
 
@@ -47,12 +49,14 @@ void show_buttons(Session& session) {
 }
 
 /// Wraps like text; a click goes to the beginning of the call.
-void show_breadcrumb(Session& session) {
+void show_breadcrumb(Session& session, std::size_t most) {
   const Debugger& debugger = *session.document.debugger();
   const float right = ImGui::GetWindowPos().x + ImGui::GetContentRegionMax().x;
   const std::vector<std::uint32_t> stack = debugger.stack();  // a click changes it
   if (stack.empty()) ImGui::TextDisabled("outside of all calls");
-  for (std::size_t i = 0; i < stack.size(); ++i) {
+  const std::size_t first = stack.size() - std::min(most, stack.size());
+  if (first > 0) ImGui::TextDisabled("%zu around:", first);
+  for (std::size_t i = first; i < stack.size(); ++i) {
     const Call& call = debugger.file().calls()[stack[i]];
     const std::string name = fmt::format("{}{} {}", i == 0 ? "" : "> ",
                                          short_name(debugger.file(), call), format_target(call));
@@ -99,8 +103,8 @@ void draw_step_panel(Session& session) {
   draw_last_event(session);
 }
 
-void draw_stack(Session& session) {
-  show_breadcrumb(session);
+void draw_stack(Session& session, std::size_t most) {
+  show_breadcrumb(session, most);
   show_removal(*session.document.debugger());
 }
 

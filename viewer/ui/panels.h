@@ -2,6 +2,7 @@
 // The panels beside the picture. A new one is a file with a draw function and a row in panels.cpp.
 #pragma once
 
+#include <cstddef>
 #include <span>
 
 #include "viewer/commands/commands.h"
@@ -44,7 +45,8 @@ void draw_calls_panel(Session& session);
 void draw_breakpoints_panel(Session& session);
 void draw_step_panel(Session& session);
 /// The algorithm that the call at hand follows, with its line in sight. Fills the current window.
-void draw_algorithm_panel(Session& session);
+/// `is_whole`: its lines are as small as they need to be seen all.
+void draw_algorithm_panel(Session& session, bool is_whole = false);
 /// What it would like to have, in pixels; 0: nothing is to be shown.
 float algorithm_height(const Session& session);
 void draw_shell_panel(Session& session);
@@ -59,11 +61,15 @@ inline constexpr float kRingShare = 0.6F;
 inline constexpr float kChordRows = 5.2F;  // with the head; more can be scrolled to
 
 // Parts of these, for the layout for teaching.
-/// The calls as a breadcrumb, and what the innermost is to do.
-void draw_stack(Session& session);
+/// The calls as a breadcrumb, the innermost `most` of them, and what the innermost is to do.
+void draw_stack(Session& session, std::size_t most = 1000);
 /// What happened last, the verdict and its reason.
 void draw_last_event(Session& session);
 /// The polygon of the shell alone, as large as the window allows.
 void draw_ring(Session& session);
+/// The tables of Algorithm 2 alone; their text is as small as they need to be seen whole.
+void draw_tables(Session& session);
+/// The tree of calls alone, as high as the window.
+void draw_tree(Session& session);
 
 }  // namespace tetmend::viewer::ui

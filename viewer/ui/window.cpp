@@ -311,8 +311,10 @@ class Window : public Host {
     if (code >= kAscii) return;
     const auto c = static_cast<int>(code);
     if (std::toupper(c) == key_of_panel_ && glfwGetTime() < end_of_key_) return;
-    if (c == ' ') return controller_.key("Space");
-    controller_.key(fmt::format("{}{:c}", std::isupper(c) != 0 ? "Shift+" : "", std::toupper(c)));
+    const std::string keys =
+        c == ' ' ? "Space"
+                 : fmt::format("{}{:c}", std::isupper(c) != 0 ? "Shift+" : "", std::toupper(c));
+    controller_.letter(static_cast<char>(c), keys, glfwGetTime());
   }
 
   template <class Deliver>

@@ -160,6 +160,7 @@ function askForChord(n, ask, shell) {
     const isSame = ([a, b]) => chord.includes(a) && chord.includes(b);
     giveAnswer(n, ask.answer.some(isSame), chord);
   };
+  svg.setAttribute("role", "group");  // a picture has nothing to press
   const reach = Math.min(0.22, 0.45 * 2 * Math.PI * 0.9 / shell.ring.length);  // of fingers
   shell.ring.forEach((vertex, i) => {
     const [cx, cy] = ringPlace(shell, i, 0.9);
@@ -179,6 +180,7 @@ function askForChord(n, ask, shell) {
 
 function askInPanels(n, call, position) {
   const ask = isOnStage() ? questionAt(n) : null;
+  byId("ring").setAttribute("role", "img");
   if (ask?.kind === "line") askForLine(n, ask);
   if (ask?.kind === "chord" && call?.shell) askForChord(n, ask, stageOfRing(call, position).shell);
 }

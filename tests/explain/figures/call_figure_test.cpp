@@ -92,6 +92,23 @@ TEST_CASE("a ring has the numbers of the study of its call, and none on each oth
   CHECK(made > 5);
 }
 
+TEST_CASE("a ring says once where its polygon is locked, whatever its call was refused for") {
+  Bench bench;
+  unsigned locked = 0;
+  for (std::uint32_t k = 0; k < bench.file.calls().size() && locked < 30; ++k) {
+    const CallStudy study = study_call(bench.file, bench.replay, k);
+    if (!study.picture || study.picture->ring.size() < 3 || !study.picture->locks.any()) continue;
+    ++locked;
+    std::string all;
+    for (const auto& text : texts_of(bench.draw(FigureKind::ring, k))) all += text.text + ' ';
+    const auto first = all.find("Locked");
+    CAPTURE(all);
+    REQUIRE(first != std::string::npos);
+    CHECK(all.find("Locked", first + 1) == std::string::npos);
+  }
+  CHECK(locked == 30);
+}
+
 TEST_CASE("a tree has a row for each call, with its facts") {
   Bench bench;
   constexpr std::uint32_t kMostRows = 400;

@@ -185,6 +185,43 @@ TEST_CASE("the camera finds each isolated call, and what is isolated is never no
   }
 }
 
+TEST_CASE(
+    "what is picked in a trace and isolated is brought into sight, the rest around it a ghost") {
+  const test::TracedBall trace;
+  TraceSession s(trace.path());
+  s.run("to_end");
+  s.run("home");
+  const Camera before = s.document.view.camera;
+  REQUIRE(s.document.scene().tets_shown > 1);
+  s.document.select(TetHandle(s.document.worst().front()));
+  CHECK(s.document.scene().tets_shown > 1);  // only pointed out
+  s.run("isolate");
+  CHECK(s.document.scene().tets_shown == 1);
+  CHECK(s.document.scene().ghosts.size() > 100);
+  const auto share = [&] {
+    double high = -1e9, low = 1e9;
+    for (const auto& corner : corners(s.document.mesh(), s.document.worst().front())) {
+      const auto at = s.document.view.camera.project(corner, s.document.canvas);
+      REQUIRE(at);
+      high = std::max({high, at->x, at->y});
+      low = std::min({low, at->x, at->y});
+    }
+    return (high - low) / s.document.canvas.height;
+  };
+  CHECK(share() > 0.1);
+  s.run("isolate");
+  CHECK(s.document.scene().tets_shown > 1);
+  CHECK(s.document.scene().ghosts.empty());
+  CHECK(s.document.view.camera == before);
+}
+
+TEST_CASE("before its first call a lesson has the numbers of its vertices in the picture") {
+  TestSession s(test::one_tet());
+  s.document.open(TETMEND_SOURCE_DIR "/assets/lessons/2-two-shells.json");
+  REQUIRE(s.document.debugger()->call() == kNoCall);
+  CHECK(s.document.names().size() == s.document.mesh().vertex_count());
+}
+
 TEST_CASE("what a call makes is not shown before it has made it") {
   const test::TracedBall trace;
   TraceSession s(trace.path());

@@ -80,6 +80,79 @@ TEST_CASE("a mesh or a view that is dropped is taken") {
   CHECK(s.document.message.is_error);
 }
 
+TEST_CASE(
+    "a word that is typed beside a box is taken back at once, a key that is held is not one") {
+  TestSession s(test::kuhn_cube(2, 0, 1));
+  Controller controller(s.session);
+  const auto type = [&](std::string_view word, double& time) {
+    for (const char c : word) {
+      const char capital = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+      controller.letter(c, c == ' ' ? "Space" : std::string(1, capital), time += 0.1);
+    }
+  };
+  double time = 10;
+  const auto before = to_json(s.document.view);
+  type("beta o", time);
+  CHECK(to_json(s.document.view) != before);
+  REQUIRE(s.document.offer);
+  CHECK(s.document.offer->text.find("\"beta o\"") != std::string::npos);
+  s.document.offer->take_back(s.document);
+  CHECK(to_json(s.document.view) == before);
+
+  s.document.offer.reset();
+  type("++++++", time += 5);
+  CHECK_FALSE(s.document.offer);
+  for (const char c : std::string("sbeo")) {  // one after the other, each looked at
+    const char capital = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+    controller.letter(c, std::string(1, capital), time += 2);
+  }
+  CHECK_FALSE(s.document.offer);
+}
+
+TEST_CASE(
+    "a picture under a name that nobody chose is named and can be removed, as part of a word too") {
+  const test::TempFolder folder;
+  const std::filesystem::path home = std::filesystem::current_path();
+  std::filesystem::current_path(folder / ".");
+  TestSession s(test::one_tet());
+  Controller controller(s.session);
+  controller.letter('p', "P", 10);
+  REQUIRE(s.document.offer);
+  CHECK(s.document.offer->text.find((folder / "tetmend-view.png").string()) != std::string::npos);
+  CHECK(std::filesystem::exists("tetmend-view.png"));
+  const Offer first = *s.document.offer;
+  first.take_back(s.document);
+  CHECK_FALSE(std::filesystem::exists("tetmend-view.png"));
+
+  double time = 20;
+  for (const char c : std::string("help pipes")) {
+    const char capital = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+    controller.letter(c, c == ' ' ? "Space" : std::string(1, capital), time += 0.1);
+  }
+  CHECK(std::filesystem::exists("tetmend-view.png"));
+  CHECK(std::filesystem::exists("tetmend-view-2.png"));
+  REQUIRE(s.document.offer);
+  const Offer word = *s.document.offer;
+  word.take_back(s.document);
+  CHECK_FALSE(std::filesystem::exists("tetmend-view.png"));
+  CHECK_FALSE(std::filesystem::exists("tetmend-view-2.png"));
+  std::filesystem::current_path(home);
+}
+
+TEST_CASE("what went wrong is forgotten with the next act") {
+  TestSession s(test::one_tet());
+  Controller controller(s.session);
+  controller.key("Ctrl+V");  // nothing there
+  REQUIRE(s.document.message.is_error);
+  controller.key("E");
+  CHECK_FALSE(s.document.message.is_error);
+  controller.key("Ctrl+V");
+  REQUIRE(s.document.message.is_error);
+  controller.press(Button::left, 200, 150, false);
+  controller.release(200, 150, 1);
+  CHECK_FALSE(s.document.message.is_error);
+}
+
 TEST_CASE("a lesson is opened by its JSON file, too, typed or dropped") {
   const std::filesystem::path lesson = TETMEND_SOURCE_DIR "/assets/lessons/2-two-shells.json";
   TestSession s(test::one_tet());

@@ -51,3 +51,20 @@ TEST_CASE("what would only complain is greyed: without a mesh, a trace, a lesson
   mesh.run("bookmark", {"here"});
   CHECK(is_on("next_bookmark", mesh.document));
 }
+
+TEST_CASE("in a menu a line stands between entries of different kinds, at the latest after nine") {
+  for (const std::string_view menu : {"File", "View", "Show", "Select", "Trace", "Run"}) {
+    CAPTURE(menu);
+    int in_a_row = 0, lines = 0;
+    for (const Command& command : commands()) {
+      if (command.menu != menu) continue;
+      if (begins_group(command)) {
+        CHECK(in_a_row > 0);  // no line on top, nor two in a row
+        in_a_row = 0;
+        ++lines;
+      }
+      CHECK(++in_a_row <= 9);
+    }
+    CHECK(lines > 0);
+  }
+}

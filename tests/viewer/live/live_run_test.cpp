@@ -18,6 +18,7 @@
 #include "tests/face/meshes.h"
 #include "tests/kernel/formats/fixtures.h"
 #include "tests/support/layered_mesh.h"
+#include "tests/support/second_order.h"
 #include "tests/support/traced_run.h"
 #include "tests/viewer/session.h"
 #include "trace/trace_file.h"
@@ -822,4 +823,69 @@ TEST_CASE("the camera goes to each change of a run, and back when it is over") {
   s.run("live_stop");
   REQUIRE(s.run("live_wait")["state"] == "stopped");
   CHECK(s.document.view.camera == before);
+}
+
+namespace {
+
+/// With an array, a group and mid-side nodes.
+MeshData rich_ball() {
+  MeshData data = test::second_order(test::delaunay_ball(300, 2), 0);
+  std::vector<double> numbers(data.tets.size());
+  for (std::size_t i = 0; i < numbers.size(); ++i) numbers[i] = 0.25 + static_cast<double>(i % 7);
+  data.tet_data = {{"density", 1, std::move(numbers)}};
+  return data;
+}
+
+}  // namespace
+
+TEST_CASE(
+    "what a live run has made is saved with all that the file held besides, as improve saves it") {
+  const test::TempFolder folder;
+  write_mesh(folder / "in.vtu", rich_ball());
+  TestSession s(test::one_tet());
+  s.document.open(folder / "in.vtu");
+  s.run("live_schedule", {"shell"});
+  s.run("live_run");
+  s.run("live_wait");
+  s.run("save", {(folder / "out.vtu").string()});
+  CHECK(s.document.message.text.find("without") == std::string::npos);
+  Mesh mesh = load(folder / "in.vtu");
+  Options options;
+  options.schedule = "shell";
+  improve(mesh, options);
+  save(folder / "wanted.vtu", mesh);
+  CHECK(test::read_text(folder / "out.vtu") == test::read_text(folder / "wanted.vtu"));
+
+  s.run("live_run", {"shown"});  // and what a second run makes of that
+  s.run("live_wait");
+  s.run("save", {(folder / "again.vtu").string()});
+  CHECK(s.document.message.text.find("without") == std::string::npos);
+  const MeshData again = read_mesh(folder / "again.vtu");
+  CHECK(again.tet_data.size() == 1);
+  CHECK(again.mid_nodes.size() > again.tets.size());
+}
+
+TEST_CASE("a run that is paused is saved with all that the file held besides, one at work is not") {
+  const test::TempFolder folder;
+  write_mesh(folder / "in.vtu", rich_ball());
+  TestSession s(test::one_tet());
+  s.document.open(folder / "in.vtu");
+  s.run("live_start");
+  s.run("live_wait");
+  for (int i = 0; i < 5; ++i) {
+    s.run("live_step");
+    s.run("live_wait");
+  }
+  REQUIRE(s.document.live.state() == LiveState::paused);
+  s.run("save", {(folder / "paused.vtu").string()});
+  CHECK(s.document.message.text.find("without") == std::string::npos);
+  const MeshData paused = read_mesh(folder / "paused.vtu");
+  CHECK(paused.tets.size() == s.document.mesh().tet_count());
+  CHECK(paused.mid_nodes.size() > paused.tets.size());
+  REQUIRE(paused.tet_data.size() == 1);
+  const auto& numbers = std::get<std::vector<double>>(paused.tet_data[0].values);
+  REQUIRE(numbers.size() == paused.tets.size());
+  CHECK(*std::max_element(numbers.begin(), numbers.end()) == 6.25);
+  CHECK(*std::min_element(numbers.begin(), numbers.end()) == 0.25);
+  CHECK(surface_fingerprint(TetMesh(paused)) == surface_fingerprint(TetMesh(rich_ball())));
 }

@@ -5,6 +5,7 @@
 #include "tests/support/example_traces.h"
 #include "tests/viewer/window.h"
 #include "trace/ledger.h"
+#include "trace/run_comparison.h"
 
 using namespace tetmend;
 using namespace tetmend::test;
@@ -83,4 +84,30 @@ TEST_CASE("pause, three calls back, explain, another parameter, go on: six actio
   CHECK(hand.actions <= 6);
   const auto state = viewer.quit();
   CHECK(state["held_parameters"] == nlohmann::json{"mean_smoothing: steps = 3"});
+}
+
+TEST_CASE("two runs stand side by side by the command alone, and one click unfolds an operator") {
+  if (!can_test_window()) return;
+  const TracedBall trace;
+  TempFolder folder;
+  const std::string other = (folder / "other.trace").string();
+  TetMesh mesh(delaunay_ball(120, 3));
+  record(mesh, other, {}, {}, Schedule("brief", "smooth{}"));
+  const RunComparison wanted = compare_runs(TraceFile(trace.path()), TraceFile(other));
+  Viewer viewer(trace.path(), kSize, "1", {"--against", other});
+  wait_until_still();
+  Hand hand;
+  hand.click(912, 170);  // the triangle of the first row
+  const viewer::Image unfolded = take_picture(".");
+  hand.click(912, 170);
+  const viewer::Image folded = take_picture(".");
+  const auto different = [&](int x, int y) { return unfolded.at(x, y).red != folded.at(x, y).red; };
+  int count = 0;
+  for (int y = 200; y < 500; ++y) count += different(1240, y) || different(1100, y) ? 1 : 0;
+  CHECK(count > 5);  // rows of the ways to end
+  const auto state = viewer.quit();
+  REQUIRE(state["trace"]["against"].is_object());
+  CHECK(state["trace"]["against"]["bad_here"] == wanted.bad_in_a);
+  CHECK(state["trace"]["against"]["bad_there"] == wanted.bad_in_b);
+  CHECK(state["trace"]["against"]["bad_here_good_there"] == wanted.worse_in_a.size());
 }

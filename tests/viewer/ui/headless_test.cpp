@@ -191,7 +191,7 @@ TEST_CASE("panels can be part of the picture, in both themes") {
     open()lua" + in_quotes(kSheet) + R"lua()
     local light = pixel(100, 590)
     panels()
-    expect(pixel(20, 300).red > 200, "a light panel")
+    expect(pixel(3, 300).red > 200, "a light panel")
     theme("dark")
     expect(pixel(20, 590).red < 80, "a dark panel")
     keys()
@@ -285,7 +285,9 @@ TEST_CASE("what is wrong is said in one line, with an exit status") {
     CHECK(std::count(outcome.err.begin(), outcome.err.end(), '\n') == 1);
   };
   const std::string out = (folder / "out.png").string();
-  fails({"--render", out, "missing.mesh"}, 1, "missing.mesh");
+  fails({"--render", out, "missing.mesh"}, 1, "missing.mesh: cannot be read: No such file");
+  fails({"--render", out, "missing.trace"}, 1, "missing.trace: cannot be read: No such file");
+  fails({"--render", out, "missing"}, 1, "missing: cannot be read: No such file");
   fails({"--render", out, "--view", R"({"peal": 1})", kSheet}, 1, "no setting 'peal'");
   fails({"--render", (folder / "out.gif").string(), kSheet}, 1, ".png");
   fails({"--render", out, "--size", "12", kSheet}, 1, "WIDTHxHEIGHT");

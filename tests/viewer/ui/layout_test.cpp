@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "viewer/ui/layout.h"
 
+#include <algorithm>
+#include <set>
+#include <vector>
+
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 
 #include "tests/support/example_traces.h"
 #include "tests/viewer/session.h"
@@ -32,4 +37,32 @@ TEST_CASE("the picture has at least half of a window of 1280 x 800, also of a tr
   CHECK(ui::lay_out(s.document, 2).is_one_column);
   s.document.window = {1920, 1080};
   CHECK_FALSE(ui::lay_out(s.document, 1).is_one_column);
+}
+
+TEST_CASE("a step of a lesson shows what it speaks of beside its picture, with buttons that stay") {
+  for (const char* name : {"1-core", "2-two-shells", "3-refusals", "4-tables", "5-reconnection"}) {
+    CAPTURE(name);
+    TestSession s(test::one_tet());
+    s.document.open(fmt::format(TETMEND_SOURCE_DIR "/assets/lessons/{}.json", name));
+    const Lesson lesson = *s.document.debugger()->lesson();
+    for (const auto& [width, height] : {std::pair{1280, 720}, std::pair{1920, 1080}}) {
+      std::set<float> places;
+      for (const LessonStep& step : lesson.steps) {
+        s.run("seek", {step.at});
+        s.document.window = {width, height};
+        const ui::Layout layout = ui::lay_out(s.document, 1);
+        REQUIRE(layout.is_teaching);
+        const bool has_call = s.document.debugger()->call() != kNoCall;
+        for (const Focus focus : step.focus) {
+          if (!has_call && (focus == Focus::ring || focus == Focus::tables)) continue;
+          CHECK(std::find(layout.focus.begin(), layout.focus.end(), focus) != layout.focus.end());
+        }
+        const bool is_picture_alone = layout.focus == std::vector{Focus::picture};
+        CHECK(layout.right.is_empty() == is_picture_alone);
+        CHECK(layout.canvas.height > 0.4 * height);
+        places.insert(layout.strip.y);
+      }
+      CHECK(places.size() == 1);
+    }
+  }
 }

@@ -115,3 +115,43 @@ TEST_CASE("a dialog asks where to go, and says when there is no such place") {
   const auto state = viewer.quit();
   CHECK(state["selection"]["tet"] == 17);
 }
+
+TEST_CASE("a long error is read whole over the picture, and is gone after the next act") {
+  if (!can_test_window()) return;
+  if (!has_program("ffmpeg")) {
+    MESSAGE("tetmend: skipped, because ffmpeg is not installed (see script/bootstrap)");
+    return;
+  }
+  // The key for pictures would be the next act.
+  const auto reds_on_screen = [] {
+    std::filesystem::remove("screen.png");
+    REQUIRE(std::system("ffmpeg -loglevel error -f x11grab -video_size 1280x800 -i $DISPLAY "
+                        "-frames:v 1 screen.png") == 0);
+    const Image image = read_png("screen.png");
+    std::array<int, 2> rows = {image.height, 0};  // of red words, in the upper half
+    int last = 0;
+    for (int y = 24; y < 300; ++y) {
+      int count = 0;
+      for (int x = 100; x < 800; ++x) {
+        const viewer::Colour& c = image.at(x, y);
+        count += c.red > 150 && c.green < 90 && c.blue < 90 ? 1 : 0;
+      }
+      if (count < 5) continue;
+      rows = {std::min(rows[0], y), y};
+      last = y;
+    }
+    return std::pair(rows, last);
+  };
+  const HandmadeTrace trace;
+  Viewer viewer(trace.path(), "1280x800");
+  wait_until_still();
+  const auto before = reds_on_screen();
+  type("key ctrl+v");  // what is on the clipboard is no view
+  type("sleep 0.5");
+  const auto said = reds_on_screen();
+  CHECK(said.second > 0);
+  CHECK(said.first[0] < 60);  // at the top of the picture
+  type("key e sleep 0.5");
+  CHECK(reds_on_screen() == before);
+  CHECK(viewer.quit()["message"].get<std::string>().find("clipboard") == std::string::npos);
+}
