@@ -203,7 +203,8 @@ TEST_CASE("variables of Exodus without a step are told, and the mesh is read") {
   }));
 }
 
-TEST_CASE("points of Exodus without elements come back; points of another netCDF file are refused") {
+TEST_CASE(
+    "points of Exodus without elements come back; points of another netCDF file are refused") {
   const TempFolder folder;
   MeshData mesh;
   mesh.points = {{0, 0, 0}, {1, 2, 3}};
