@@ -228,7 +228,6 @@ json change_speed(Session& s, const json&) {
 json isolate(Session& s, const json&) {
   need_mesh(s.document);
   s.document.toggle_isolation();
-  s.document.forget_camera_before_alone();
   return nullptr;
 }
 

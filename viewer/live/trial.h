@@ -29,7 +29,7 @@ class Trial {
  public:
   /// @param file name of the mesh, for the trace
   /// @throws Error as attempt_at(), and when the operator is not tried at all. Cost: that of the
-  /// attempt and of copies: about 80 ms of a processor for a million tets.
+  /// attempt and of copies: about 0.1 s of a processor for a million tets.
   Trial(const TetMesh& mesh, const Registry& registry, TrialRequest request,
         const std::string& file);
   Trial(const Trial&) = delete;

@@ -191,6 +191,7 @@ TEST_CASE(
   TraceSession s(trace.path());
   s.run("to_end");
   s.run("home");
+  s.document.view.camera.distance *= 10;  // a tet is a dot
   const Camera before = s.document.view.camera;
   REQUIRE(s.document.scene().tets_shown > 1);
   s.document.select(TetHandle(s.document.worst().front()));
