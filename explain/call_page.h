@@ -17,7 +17,8 @@ namespace tetmend::explain {
 std::string page_of_call(const std::filesystem::path& trace, std::uint32_t call,
                          const std::string& program);
 
-/// What there is to draw of a call, as pictures of SVG: its ring, and its tree unless that is too large.
+/// What there is to draw of a call, as pictures of SVG: its ring, and its tree unless that is too
+/// large.
 /// @param trace the bytes of a trace
 /// @throws Error and cost: as above
 std::vector<std::string> drawings_of_call(std::string_view trace, std::uint32_t call);

@@ -7,7 +7,8 @@
 #include <cstdint>
 
 #include <Eigen/Core>
-// The cross product alone: the rest of Eigen/Geometry takes a fifth of the time of <tetmend/kernel.h>.
+// The cross product alone: the rest of Eigen/Geometry takes a fifth of the time of
+// <tetmend/kernel.h>.
 #if EIGEN_VERSION_AT_LEAST(3, 4, 90)
 #include <Eigen/Geometry>
 #else

@@ -106,7 +106,8 @@ class TETMEND_API Standard {
     angles.own_ = nullptr;
     return angles;
   }
-  /// Of a tet in positive order. One root, two divisions. Loops inside the library call quality_of_points().
+  /// Of a tet in positive order. One root, two divisions. Loops inside the library call
+  /// quality_of_points().
   double quality(const Point& p0, const Point& p1, const Point& p2, const Point& p3) const;
   /// The own measure of several tets costs what it costs of each: there is nothing to share.
   bool is_own() const { return own_ != nullptr; }

@@ -12,9 +12,9 @@
 
 namespace tetmend {
 
-/// Whoever opens a trace notes qualities here, then calls complete(); from then on the standards that
-/// known() gave say of these tets what the run saw, bit for bit. Of a tet that the run never had they
-/// say what they say where a measure is unknown.
+/// Whoever opens a trace notes qualities here, then calls complete(); from then on the standards
+/// that known() gave say of these tets what the run saw, bit for bit. Of a tet that the run never
+/// had they say what they say where a measure is unknown.
 class RecordedMeasures {
  public:
   /// The same standard; a measure of a program gets what is noted, or will be, for its function.

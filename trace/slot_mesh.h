@@ -37,7 +37,8 @@ class SlotMesh {
   /// By which tets are judged.
   const Standard& standard() const { return standard_; }
   void set_standard(const Standard& standard) { standard_ = standard; }
-  /// Computed from the points, or what the trace noted of them: the bits that TetMesh::quality() had.
+  /// Computed from the points, or what the trace noted of them: the bits that TetMesh::quality()
+  /// had.
   Quality quality(TetHandle t) const;
 
   /// What the file of the mesh named: these never change. Vertices by slot.
@@ -55,8 +56,8 @@ class SlotMesh {
   MeshData extract(std::span<const TetHandle> tets,
                    std::vector<std::uint32_t>* vertex_slots = nullptr) const;
 
-  /// By a measure of a program: the qualities of all tets, by slot, as the run had them when it began. Else
-  /// empty, and of older traces.
+  /// By a measure of a program: the qualities of all tets, by slot, as the run had them when it
+  /// began. Else empty, and of older traces.
   std::span<const Quality> noted_qualities() const { return noted_qualities_; }
   void forget_noted_qualities() { noted_qualities_ = {}; }
 
@@ -98,7 +99,8 @@ class SlotMesh {
   std::vector<Quality> noted_qualities_;
 };
 
-/// By which tets are drawn that were never made: a measure of a program is known of those that were.
+/// By which tets are drawn that were never made: a measure of a program is known of those that
+/// were.
 Standard standard_of_drawings(const SlotMesh& mesh);
 
 /// Of all live tets, by slot.

@@ -75,9 +75,9 @@ struct TraceEvent {
   /// Of a cavity at the surface, whose hull may change there, one for each of `created`. Empty for
   /// a cavity inside: there they are those of `removed`.
   std::vector<Label> created_labels;
-  /// By a measure of a program, which readers of the trace do not have: of an edit, the qualities of `created`, or
-  /// of the star; of a change of the standard, those of all tets, by slot. Empty where tetmend knows the
-  /// measure.
+  /// By a measure of a program, which readers of the trace do not have: of an edit, the qualities
+  /// of `created`, or of the star; of a change of the standard, those of all tets, by slot. Empty
+  /// where tetmend knows the measure.
   std::vector<Quality> qualities;
 };
 

@@ -45,8 +45,9 @@ struct TETMEND_API Call {
 TETMEND_API Call attempt_at(TetMesh& mesh, std::string_view operator_name, Target target,
                             const ParameterSettings& settings, bool keeps);
 
-/// try_only(), written down: the bytes of a trace (docs/trace.md) whose first call is the attempt, with what it did not undone.
-/// Cost: linear in the mesh. @throws Error as attempt() does, and while a transaction is open
+/// try_only(), written down: the bytes of a trace (docs/trace.md) whose first call is the attempt,
+/// with what it did not undone. Cost: linear in the mesh. @throws Error as attempt() does, and
+/// while a transaction is open
 TETMEND_API std::string trace_of_attempt(TetMesh& mesh, std::string_view operator_name,
                                          Target target, const ParameterSettings& settings = {});
 

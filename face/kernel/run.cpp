@@ -86,7 +86,8 @@ struct Run::Inside {
     if (options.operators != nullptr) add_to(registry, *options.operators, &mesh);
   }
 
-  /// The trace goes on, or begins with the mesh as it is. @throws Error where the mesh is another than it knows
+  /// The trace goes on, or begins with the mesh as it is. @throws Error where the mesh is another
+  /// than it knows
   void record() {
     if (options.trace.empty() || is_recorded) return;
     if (recorder && stamp != mesh.stamp_) {

@@ -56,8 +56,8 @@ struct TETMEND_API RunOptions {
   std::size_t most_tets = std::numeric_limits<std::size_t>::max();  ///< none is added above that
   std::size_t most_attempts = std::numeric_limits<std::size_t>::max();  ///< of all passes together
   const std::atomic<bool>* cancel = nullptr;  ///< passes end soon after it became true
-  /// A file for all that passes do, see docs/trace.md; empty: none. One thread works then. Only passes
-  /// may change the mesh until finish_trace(): another one throws Error.
+  /// A file for all that passes do, see docs/trace.md; empty: none. One thread works then. Only
+  /// passes may change the mesh until finish_trace(): another one throws Error.
   std::filesystem::path trace = {};
 };
 
@@ -119,7 +119,8 @@ class TETMEND_API Run {
 
   /// Attempts ran out, or `cancel` was set.
   bool is_over() const;
-  /// The trace gets its name, and later passes are not in it. The destructor does the same, but cannot tell of trouble.
+  /// The trace gets its name, and later passes are not in it. The destructor does the same, but
+  /// cannot tell of trouble.
   /// @throws Error when the file could not be written
   void finish_trace();
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //   const_walks MESH
-// Many threads call the const members of one mesh at the same time, and all of them see the same. The thread sanitizer looks on.
+// Many threads call the const members of one mesh at the same time, and all of them see the same.
+// The thread sanitizer looks on.
 #include <array>
 #include <cstdio>
 #include <exception>

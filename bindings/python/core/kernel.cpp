@@ -280,8 +280,8 @@ py::tuple attempt(KernelMesh& self, const std::string& name, const Numbers& targ
   return to_tuple(kernel::attempt_at(self.mesh, self.operators, name, *at, keeps));
 }
 
-/// Ring and tree of what the attempt would do now, as pictures of SVG; none of an operator of the program, while an edit is open or an array of
-/// the mesh's memory in use.
+/// Ring and tree of what the attempt would do now, as pictures of SVG; none of an operator of the
+/// program, while an edit is open or an array of the mesh's memory in use.
 std::vector<std::string> drawings(KernelMesh& self, const std::string& name, const Numbers& target,
                                   const kernel::ParameterSettings& settings) {
   const std::optional<Target> at = target_of(self, target);

@@ -326,8 +326,8 @@ TEST_CASE("the colours of a trace are by the measure that the run judged tets by
       const TetHandle t(i);
       if (then.is_deleted(t)) continue;
       const TetVertices& v = then.vertices(t);
-      const double quality = standard.quality(then.point(v[0]), then.point(v[1]), then.point(v[2]),
-                                              then.point(v[3]));
+      const double quality =
+          standard.quality(then.point(v[0]), then.point(v[1]), then.point(v[2]), then.point(v[3]));
       const float shown = evaluate_tet(then, find_tet_value("quality"), t);
       others += shown == static_cast<float>(quality) ? 0 : 1;
     }
