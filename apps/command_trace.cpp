@@ -103,13 +103,23 @@ std::vector<std::int32_t> cavity_field(const TraceFile& file, Replay& replay) {
   return live;
 }
 
+/// The values of a measure of a program, as an array with its name.
+void add_own_measure(const SlotMesh& mesh, MeshData& data) {
+  const OwnMeasure* own = mesh.standard().own();
+  if (own == nullptr) return;
+  std::vector<double> values;
+  for (const Quality q : qualities_of_tets(mesh)) values.push_back(q * own->good);
+  data.tet_data.push_back({.name = own->name, .values = std::move(values)});
+}
+
 void write_mesh_at(const TraceOptions& options, const TraceFile& file) {
   if (*options.at > file.event_count()) {
     throw Error(fmt::format("--at {}: the trace has {} events", *options.at, file.event_count()));
   }
   Replay replay(file, 0);
   replay.seek(*options.at);
-  const MeshData data = replay.mesh().to_data();
+  MeshData data = replay.mesh().to_data();
+  add_own_measure(replay.mesh(), data);
   if (options.output.extension() != ".vtk") return write_mesh(options.output, data);
   const std::vector<std::int32_t> cavity = cavity_field(file, replay);
   const formats::TetField field{"cavity", cavity};

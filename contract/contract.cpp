@@ -7,6 +7,7 @@
 
 #include "contract/zoo.h"
 #include "envelope/envelope.h"
+#include "kernel/workspace.h"
 #include "ops/builtin_operators.h"
 
 namespace tetmend::contract {

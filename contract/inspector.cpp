@@ -12,6 +12,7 @@
 #include "contract/changed_tets.h"
 #include "contract/portrait.h"
 #include "contract/trials.h"
+#include "kernel/workspace.h"
 
 namespace tetmend::contract {
 

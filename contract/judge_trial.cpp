@@ -14,6 +14,7 @@
 #include "contract/portrait.h"
 #include "contract/trials.h"
 #include "kernel/integrity.h"
+#include "kernel/workspace.h"
 
 namespace tetmend::contract {
 

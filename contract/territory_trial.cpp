@@ -13,6 +13,7 @@
 #include "kernel/error.h"
 #include "kernel/integrity.h"
 #include "kernel/star.h"
+#include "kernel/workspace.h"
 
 namespace tetmend::contract {
 

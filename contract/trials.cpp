@@ -10,6 +10,7 @@
 #include "contract/zoo.h"
 #include "kernel/error.h"
 #include "kernel/integrity.h"
+#include "kernel/workspace.h"
 #include "trace/text_trace.h"
 
 namespace tetmend::contract {

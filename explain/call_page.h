@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <string_view>
+#include <vector>
 
 namespace tetmend::explain {
 
@@ -14,5 +16,11 @@ namespace tetmend::explain {
 /// Cost: reads and plays the trace.
 std::string page_of_call(const std::filesystem::path& trace, std::uint32_t call,
                          const std::string& program);
+
+/// What there is to draw of a call, as pictures of SVG: its ring, and its tree unless that is too
+/// large.
+/// @param trace the bytes of a trace
+/// @throws Error and cost: as above
+std::vector<std::string> drawings_of_call(std::string_view trace, std::uint32_t call);
 
 }  // namespace tetmend::explain

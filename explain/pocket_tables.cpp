@@ -51,7 +51,7 @@ class Filling {
 
   Quality quality(VertexHandle p, VertexHandle q, VertexHandle r, VertexHandle s) const {
     return static_cast<Quality>(
-        mesh_.standard().quality(mesh_.point(p), mesh_.point(q), mesh_.point(r), mesh_.point(s)));
+        standard_.quality(mesh_.point(p), mesh_.point(q), mesh_.point(r), mesh_.point(s)));
   }
 
   void evaluate_triangles() {
@@ -97,6 +97,7 @@ class Filling {
   }
 
   const SlotMesh& mesh_;
+  Standard standard_ = standard_of_drawings(mesh_);
   VertexHandle a_, b_;
   const std::vector<VertexHandle>& ring_;
   ShellLocks locks_;

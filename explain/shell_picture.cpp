@@ -17,8 +17,8 @@ namespace {
 constexpr Quality kBest = std::numeric_limits<Quality>::infinity();
 
 double quality(const SlotMesh& mesh, const TetVertices& tet) {
-  return mesh.standard().quality(mesh.point(tet[0]), mesh.point(tet[1]), mesh.point(tet[2]),
-                                 mesh.point(tet[3]));
+  return standard_of_drawings(mesh).quality(mesh.point(tet[0]), mesh.point(tet[1]),
+                                            mesh.point(tet[2]), mesh.point(tet[3]));
 }
 
 Quality to_quality(double value) {
@@ -48,7 +48,7 @@ void search_pockets(const SlotMesh& mesh, std::span<const Quality> old_sides, Sh
   std::vector<Point> ring;
   for (const VertexHandle v : s.ring) ring.push_back(mesh.point(v));
   CoveringProblem problem;
-  problem.standard = mesh.standard();
+  problem.standard = standard_of_drawings(mesh);
   problem.a = mesh.point(s.a);
   problem.b = mesh.point(s.b);
   problem.ring = ring;
@@ -160,7 +160,7 @@ ShellPicture picture_of_shell(const SlotMesh& mesh, const SlotShell& shell,
   std::vector<Quality> sides;
   for (const TetHandle t : shell.tets) {
     tets.push_back(mesh.vertices(t));
-    sides.push_back(mesh.quality(t));
+    sides.push_back(to_quality(quality(mesh, mesh.vertices(t))));
   }
   s.before = covering_of(mesh, s, tets);
   s.floor = s.before.worst;

@@ -383,6 +383,34 @@ const MeshArrays& Mesh::elements() const {
   return here.arrays;
 }
 
+std::span<const std::array<double, 3>> Mesh::points() const {
+  return elements().points;
+}
+std::span<const std::array<std::uint32_t, 4>> Mesh::tets() const {
+  return elements().tets;
+}
+std::span<const std::array<std::uint32_t, 3>> Mesh::triangles() const {
+  return elements().triangles;
+}
+std::span<const std::array<std::uint32_t, 2>> Mesh::edges() const {
+  return elements().edges;
+}
+std::span<const std::uint32_t> Mesh::required_vertices() const {
+  return elements().required_vertices;
+}
+std::span<const std::int32_t> Mesh::point_labels() const {
+  return elements().point_labels;
+}
+std::span<const std::int32_t> Mesh::tet_labels() const {
+  return elements().tet_labels;
+}
+std::span<const std::int32_t> Mesh::triangle_labels() const {
+  return elements().triangle_labels;
+}
+std::span<const std::int32_t> Mesh::edge_labels() const {
+  return elements().edge_labels;
+}
+
 const MeshArrays& Mesh::arrays() const {
   const Content& here = content();
   elements();

@@ -7,6 +7,7 @@
 #include <map>
 #include <string_view>
 
+#include <Eigen/Geometry>
 #include <fmt/format.h>
 
 #include "envelope/envelope.h"

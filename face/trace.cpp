@@ -170,13 +170,29 @@ std::vector<Trace::Event> Trace::events(std::uint64_t first, std::uint64_t last)
   return list;
 }
 
-Mesh Trace::mesh_at(std::uint64_t n) const {
-  if (n > event_count()) {
-    throw Error(fmt::format("there are no {} events; the trace has {}", n, event_count()));
+namespace {
+
+Replay replay_to(const TraceFile& file, std::uint64_t n) {
+  if (n > file.event_count()) {
+    throw Error(fmt::format("there are no {} events; the trace has {}", n, file.event_count()));
   }
-  Replay replay(content_->file, 0);
+  Replay replay(file, 0);
   replay.seek(n);
-  return MeshAccess::make(replay.mesh().to_data());
+  return replay;
+}
+
+}  // namespace
+
+Mesh Trace::mesh_at(std::uint64_t n) const {
+  return MeshAccess::make(replay_to(content_->file, n).mesh().to_data());
+}
+
+std::vector<float> Trace::quality_at(std::uint64_t n) const {
+  return qualities_of_tets(replay_to(content_->file, n).mesh());
+}
+
+std::string_view Trace::measure() const {
+  return content_->file.initial_mesh().standard().measure_name();
 }
 
 std::vector<Trace::Entry> Trace::ledger() const {

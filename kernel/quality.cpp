@@ -2,7 +2,9 @@
 // Quality measures of a tet.
 #include "kernel/quality.h"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 #include <numbers>
 #include <string>
@@ -10,6 +12,7 @@
 
 #include "kernel/error.h"
 #include "kernel/nearest_word.h"
+#include "kernel/quality_of_points.h"
 
 namespace tetmend {
 
@@ -118,6 +121,11 @@ bool Standard::is_same(const Standard& a, const Standard& b) {
          a.own_->name == b.own_->name && a.own_->good == b.own_->good;
 }
 
+double Standard::quality(const Point& p0, const Point& p1, const Point& p2, const Point& p3) const {
+  if (own_ != nullptr) return own_quality(p0, p1, p2, p3);
+  return quality_of_points(*this, p0, p1, p2, p3);
+}
+
 double Standard::own_quality(const Point& p0, const Point& p1, const Point& p2,
                              const Point& p3) const {
   if (!own_->evaluate) return of_angles().quality(p0, p1, p2, p3);
@@ -128,6 +136,10 @@ double Standard::own_quality(const Point& p0, const Point& p1, const Point& p2,
   const double value = own_->evaluate(p0, p1, p2, p3) / own_->good;
   if (v6 < 0) return -std::clamp(std::isnan(value) ? kMost : std::abs(value), kLeast, kMost);
   return value > 0 ? std::min(value, kMost) : 0;
+}
+
+double minimum_sine(const Point& p0, const Point& p1, const Point& p2, const Point& p3) {
+  return Standard().quality(p0, p1, p2, p3);
 }
 
 double Standard::quality_of_angle(double degrees) const {

@@ -35,14 +35,18 @@ class Scale {
   int exponent() const { return exponent_; }
   bool is_one() const { return exponent_ == 0; }
   double to_file(double length) const { return length * to_file_; }
-  Point to_file(const Point& p) const { return p * to_file_; }
+  Point to_file(const Point& p) const { return times(p, to_file_); }
   double to_work(double length) const { return length * to_work_; }
-  Point to_work(const Point& p) const { return p * to_work_; }
+  Point to_work(const Point& p) const { return times(p, to_work_); }
   void to_file(std::vector<Point>& points) const;
   void to_work(std::vector<Point>& points) const;
   friend bool operator==(const Scale&, const Scale&) = default;
 
  private:
+  /// One by one: what Eigen makes of a product takes a compiler a while, in each program.
+  static Point times(const Point& p, double factor) {
+    return {p.x() * factor, p.y() * factor, p.z() * factor};
+  }
   int exponent_ = 0;
   double to_file_ = 1;
   double to_work_ = 1;

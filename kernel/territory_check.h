@@ -5,6 +5,7 @@
 #include <span>
 
 #include "kernel/transaction.h"
+#include "kernel/workspace.h"
 
 namespace tetmend {
 

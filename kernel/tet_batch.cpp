@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "kernel/quality_of_points.h"
+
 namespace tetmend {
 
 namespace {
@@ -91,7 +93,7 @@ void TetBatch::evaluate_one_by_one(const Standard& standard) {
                    value(static_cast<Row>(x + 2), i));
     };
     groups_[i / kWideLanes].of[kQuality][i % kWideLanes] =
-        standard.quality(corner(ax), corner(bx), corner(cx), corner(dx));
+        quality_of_points(standard, corner(ax), corner(bx), corner(cx), corner(dx));
   }
 }
 

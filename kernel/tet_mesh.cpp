@@ -11,6 +11,7 @@
 #include "kernel/grouping.h"
 #include "kernel/hilbert.h"
 #include "kernel/mesh_view.h"
+#include "kernel/quality_of_points.h"
 #include "kernel/thin_stars.h"
 
 namespace tetmend {
@@ -90,6 +91,20 @@ std::size_t TetMesh::freeze(const std::function<bool(TetHandle)>& is_frozen) {
     ++count;
   }
   return count;
+}
+
+Quality TetMesh::evaluate(const TetVertices& tv) const {
+  return static_cast<Quality>(
+      quality_of_points(standard_, point(tv[0]), point(tv[1]), point(tv[2]), point(tv[3])));
+}
+
+bool misses_goal(const TetMesh& mesh, TetHandle t) {
+  if (mesh.quality(t) >= kBadThreshold) return false;
+  if (mesh.standard().terms() != Standard::Terms::sine_and_length) return true;
+  const TetVertices& v = mesh.vertices(t);
+  return static_cast<Quality>(mesh.standard().of_angles().quality(
+             mesh.point(v[0]), mesh.point(v[1]), mesh.point(v[2]), mesh.point(v[3]))) <
+         kBadThreshold;
 }
 
 void TetMesh::set_standard(const Standard& standard) {

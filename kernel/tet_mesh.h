@@ -189,10 +189,7 @@ class TETMEND_API TetMesh {
   /// first. Precondition: no transaction is open. Cost: linear; nothing without a guard.
   void renew_surface();
   /// Quality computed from the points; what quality() caches.
-  Quality evaluate(const TetVertices& tv) const {
-    return static_cast<Quality>(
-        standard_.quality(point(tv[0]), point(tv[1]), point(tv[2]), point(tv[3])));
-  }
+  Quality evaluate(const TetVertices& tv) const;
   bool is_certified_positive(const TetVertices& tv) const {
     return certified_positive(point(tv[0]), point(tv[1]), point(tv[2]), point(tv[3]));
   }
@@ -370,19 +367,12 @@ class TETMEND_API BuildError : public Error {
 };
 
 /// The angles of the tet miss the goal; a needle whose angles are good does not.
-inline bool misses_goal(const TetMesh& mesh, TetHandle t) {
-  if (mesh.quality(t) >= kBadThreshold) return false;
-  if (mesh.standard().terms() != Standard::Terms::sine_and_length) return true;
-  const TetVertices& v = mesh.vertices(t);
-  return static_cast<Quality>(mesh.standard().of_angles().quality(
-             mesh.point(v[0]), mesh.point(v[1]), mesh.point(v[2]), mesh.point(v[3]))) <
-         kBadThreshold;
-}
+TETMEND_API bool misses_goal(const TetMesh& mesh, TetHandle t);
 
 /// Lowest quality of the tets, of which there is at least one.
 inline Quality worst_quality(const TetMesh& mesh, std::span<const TetHandle> tets) {
   Quality worst = mesh.quality(tets[0]);
-  for (const TetHandle t : tets.subspan(1)) worst = std::min(worst, mesh.quality(t));
+  for (const TetHandle t : tets) worst = std::min(worst, mesh.quality(t));
   return worst;
 }
 

@@ -18,6 +18,7 @@
 #include "kernel/property_values.h"
 #include "kernel/star.h"
 #include "kernel/territory_check.h"
+#include "kernel/workspace.h"
 
 namespace tetmend {
 

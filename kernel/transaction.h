@@ -8,10 +8,14 @@
 
 #include <tetmend/api.h>
 
+#include "kernel/surface_guard.h"
 #include "kernel/tet_mesh.h"
-#include "kernel/workspace.h"
 
 namespace tetmend {
+
+class Workspace;
+struct Edit;
+struct TransactionPast;
 
 /// Why an edit was not made. The mesh is unchanged unless `made`.
 enum class EditResult : std::uint8_t {
@@ -125,7 +129,7 @@ class TETMEND_API Transaction {
   void undo() noexcept;
 
  private:
-  Workspace::Past& past() const;
+  TransactionPast& past() const;
   EditResult check_old(std::span<const TetHandle> old);
   EditResult check_vertices(std::span<const TetHandle> old, std::span<const TetVertices> created);
   EditResult evaluate(std::span<const TetVertices> created);

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "kernel/transaction.h"
+#include "kernel/workspace.h"
 
 namespace tetmend {
 
@@ -72,9 +73,9 @@ bool Transaction::has_too_many_tets() const {
   return static_cast<std::ptrdiff_t>(now - tets_before_) > 0 && workspace_.has_too_many_tets(mesh_);
 }
 
-Workspace::Past& Transaction::past() const {
+TransactionPast& Transaction::past() const {
   const Journal& journal = workspace_.journal_;
-  Workspace::Past& past = workspace_.past_;
+  TransactionPast& past = workspace_.past_;
   past.displaced.clear();
   past.made.clear();
   past.removed.clear();
@@ -96,7 +97,7 @@ Workspace::Past& Transaction::past() const {
 }
 
 Transaction::Tets Transaction::tets() const {
-  Workspace::Past& past = this->past();
+  TransactionPast& past = this->past();
   past.before.clear();
   past.now.clear();
   past.vertices_before.clear();
@@ -121,7 +122,7 @@ Transaction::Tets Transaction::tets() const {
 }
 
 void Transaction::list_new_edges(std::vector<std::array<VertexHandle, 2>>& out) const {
-  const Workspace::Past& past = this->past();
+  const TransactionPast& past = this->past();
   const auto was_edge = [&past](VertexHandle a, VertexHandle b) {
     return std::any_of(past.removed.begin(), past.removed.end(), [&](const TetVertices& tet) {
       return std::find(tet.begin(), tet.end(), a) != tet.end() &&
@@ -144,7 +145,7 @@ void Transaction::list_new_edges(std::vector<std::array<VertexHandle, 2>>& out) 
 void Transaction::list_changed_edges(std::vector<std::array<Point, 2>>& before,
                                      std::vector<std::array<Point, 2>>& now) const {
   using Ends = std::array<VertexHandle, 2>;
-  const Workspace::Past& past = this->past();
+  const TransactionPast& past = this->past();
   std::vector<Ends> old_edges;
   std::vector<Ends> new_edges;
   const auto add = [](const TetVertices& tet, std::vector<Ends>& edges) {

@@ -15,6 +15,7 @@
 #include "kernel/property_values.h"
 #include "kernel/territory_check.h"
 #include "kernel/transaction.h"
+#include "kernel/workspace.h"
 
 namespace tetmend {
 

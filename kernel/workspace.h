@@ -21,6 +21,29 @@
 
 namespace tetmend {
 
+/// What a transaction has changed, for those who ask.
+struct TransactionPast {
+  struct Place {
+    VertexHandle vertex;
+    Point point;  // of a vertex that moved or went; any for a new one
+  };
+  std::vector<Place> displaced;
+  std::vector<TetHandle> made;  // slots whose tet was not there
+  std::vector<TetVertices> removed;
+  std::vector<TetHandle> changed;  // live
+  std::vector<std::array<Point, 4>> before;
+  std::vector<std::array<Point, 4>> now;
+  std::vector<TetVertices> vertices_before;
+  std::vector<TetVertices> vertices_now;
+
+  std::vector<Place>::const_iterator find(VertexHandle v) const {
+    return std::find_if(displaced.begin(), displaced.end(),
+                        [v](const Place& place) { return place.vertex == v; });
+  }
+  bool is_displaced(VertexHandle v) const { return find(v) != displaced.end(); }
+  bool was_made(TetHandle t) const { return std::find(made.begin(), made.end(), t) != made.end(); }
+};
+
 /// The working memory of one worker. The mesh holds nothing of the kind, so any thread may read it.
 /// A workspace belongs to one mesh; garbage collection and sorting of the mesh make it invalid.
 class TETMEND_API Workspace {
@@ -150,31 +173,7 @@ class TETMEND_API Workspace {
     bool constrained;
   };
   std::vector<Gluing> gluing_;
-  /// What a transaction has changed, for those who ask.
-  struct Past {
-    struct Place {
-      VertexHandle vertex;
-      Point point;  // of a vertex that moved or went; any for a new one
-    };
-    std::vector<Place> displaced;
-    std::vector<TetHandle> made;  // slots whose tet was not there
-    std::vector<TetVertices> removed;
-    std::vector<TetHandle> changed;  // live
-    std::vector<std::array<Point, 4>> before;
-    std::vector<std::array<Point, 4>> now;
-    std::vector<TetVertices> vertices_before;
-    std::vector<TetVertices> vertices_now;
-
-    std::vector<Place>::const_iterator find(VertexHandle v) const {
-      return std::find_if(displaced.begin(), displaced.end(),
-                          [v](const Place& place) { return place.vertex == v; });
-    }
-    bool is_displaced(VertexHandle v) const { return find(v) != displaced.end(); }
-    bool was_made(TetHandle t) const {
-      return std::find(made.begin(), made.end(), t) != made.end();
-    }
-  };
-  Past past_;
+  TransactionPast past_;
   TetBatch batch_;  // the tets that an edit makes or moves
   std::vector<std::uint16_t> created_flags_;
   std::vector<std::array<VertexHandle, 2>> constrained_edges_;

@@ -11,6 +11,9 @@
 #include <bitset>
 #include <limits>
 
+#include "kernel/quality_of_points.h"
+#include "kernel/workspace.h"
+
 namespace tetmend {
 
 namespace {
@@ -108,7 +111,7 @@ void VertexCavity::take(const TetMesh& mesh, TetHandle t, const Point& point) {
       continue;
     const auto [a, b, c] = mesh.vertices(face);
     const double quality =
-        mesh.standard().quality(point, mesh.point(a), mesh.point(b), mesh.point(c));
+        quality_of_points(mesh.standard(), point, mesh.point(a), mesh.point(b), mesh.point(c));
     if (!crossable) bound_ = std::min(bound_, quality);
     front_.push_back({quality, face});
     std::push_heap(front_.begin(), front_.end(), is_worse);

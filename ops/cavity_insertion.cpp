@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <array>
 
+#include "kernel/workspace.h"
 #include "ops/builtin_operators.h"
 #include "ops/cavity.h"
 #include "ops/relaxation.h"

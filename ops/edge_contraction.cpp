@@ -12,6 +12,7 @@
 #include "kernel/index_set.h"
 #include "kernel/star.h"
 #include "kernel/wanted_lengths.h"
+#include "kernel/workspace.h"
 #include "ops/builtin_operators.h"
 #include "ops/vertex_ball.h"
 

@@ -7,6 +7,7 @@
 //   p---------q          p---------q
 #include <algorithm>
 
+#include "kernel/workspace.h"
 #include "ops/builtin_operators.h"
 
 namespace tetmend {

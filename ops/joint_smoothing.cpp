@@ -3,6 +3,7 @@
 
 #include "kernel/index_set.h"
 #include "kernel/star.h"
+#include "kernel/workspace.h"
 #include "ops/builtin_operators.h"
 #include "search/patch_optimiser.h"
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "kernel/star.h"
+#include "kernel/workspace.h"
 #include "ops/builtin_operators.h"
 #include "ops/where.h"
 #include "search/mean_ratio_ball.h"

@@ -6,6 +6,7 @@
 //            b             stay a disc without inner vertices.
 #include <algorithm>
 
+#include "kernel/workspace.h"
 #include "ops/builtin_operators.h"
 #include "ops/shell_search.h"
 

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "kernel/workspace.h"
 #include "ops/attempt_watch.h"
 
 namespace tetmend {
@@ -28,6 +29,10 @@ TetHandle tet_of(Target target) {
 }
 
 }  // namespace
+
+bool has_no_room(const OperatorContext& context) {
+  return context.judge->kind() != Judge::Kind::opening && context.workspace.is_full(context.mesh);
+}
 
 TargetVertices::TargetVertices(const TetMesh& mesh, Target target) {
   const auto take = [&](const auto& vertices) {

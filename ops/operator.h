@@ -19,40 +19,11 @@
 #include "kernel/star.h"
 #include "kernel/transaction.h"
 #include "ops/parameters.h"
+#include "ops/target.h"
 #include "trace/trace_sink.h"
 #include "trace/verdict.h"
 
 namespace tetmend {
-
-enum class TargetKind : std::uint8_t { tet, edge, face, vertex };
-
-/// What an attempt is aimed at: a handle and its kind.
-struct TETMEND_API Target {
-  TargetKind kind;
-  std::uint32_t code;
-
-  static Target of(TetHandle t) { return {TargetKind::tet, t.index()}; }
-  static Target of(TetEdge e) { return {TargetKind::edge, e.code()}; }
-  static Target of(HalfFace f) { return {TargetKind::face, f.code()}; }
-  static Target of(VertexHandle v) { return {TargetKind::vertex, v.index()}; }
-  /// Precondition of each: the kind is right.
-  TetHandle tet() const { return TetHandle(code); }
-  TetEdge edge() const { return TetEdge::from_code(code); }
-  HalfFace face() const { return HalfFace::from_code(code); }
-  VertexHandle vertex() const { return VertexHandle(code); }
-};
-
-/// The vertices of a target, which outlive its handle: 1 of a vertex, 2 of an edge, 3 of a face, 4
-/// of a tet.
-class TETMEND_API TargetVertices {
- public:
-  TargetVertices(const TetMesh& mesh, Target target);
-  std::span<const VertexHandle> all() const { return {vertices_.data(), count_}; }
-
- private:
-  std::array<VertexHandle, 4> vertices_;
-  std::size_t count_ = 0;
-};
 
 class Operator;
 class Registry;
@@ -103,9 +74,7 @@ struct TETMEND_API OperatorInfo {
 
 /// One more tet would be refused, whatever it brings: for operators that make the mesh grow. What opens
 /// a sequence may: what follows can remove tets.
-inline bool has_no_room(const OperatorContext& context) {
-  return context.judge->kind() != Judge::Kind::opening && context.workspace.is_full(context.mesh);
-}
+TETMEND_API bool has_no_room(const OperatorContext& context);
 
 /// Whether an operator on vertices is to be tried on one.
 inline bool is_worth_a_try(bool at_surface, const TetMesh& mesh, VertexHandle v) {

@@ -18,6 +18,7 @@
 #include <tetmend/api.h>
 
 #include "kernel/shell.h"
+#include "kernel/workspace.h"
 #include "ops/describe.h"
 #include "ops/registry.h"
 

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "kernel/workspace.h"
+
 namespace tetmend {
 
 namespace {

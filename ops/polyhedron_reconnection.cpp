@@ -3,6 +3,7 @@
 //   apply:    search, replace, smooth; after a refusal, grow and try again
 #include <algorithm>
 
+#include "kernel/workspace.h"
 #include "ops/builtin_operators.h"
 #include "ops/refilling.h"
 #include "ops/vertex_ball.h"

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "kernel/workspace.h"
 #include "ops/builtin_operators.h"
 #include "ops/shell_search.h"
 #include "trace/algorithm.h"

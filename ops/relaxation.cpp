@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "kernel/star.h"
+#include "kernel/workspace.h"
 
 namespace tetmend {
 

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "kernel/workspace.h"
+
 namespace tetmend {
 
 Verdict find_searchable_shell(const OperatorContext& context, TetEdge edge, Shell& shell) {

@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "kernel/star.h"
+#include "kernel/workspace.h"
 #include "ops/builtin_operators.h"
 #include "ops/vertex_ball.h"
 

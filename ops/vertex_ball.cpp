@@ -3,6 +3,8 @@
 
 #include <optional>
 
+#include "kernel/workspace.h"
+
 namespace tetmend {
 
 namespace {

@@ -10,6 +10,7 @@
 #include <array>
 
 #include "kernel/index_set.h"
+#include "kernel/workspace.h"
 #include "ops/builtin_operators.h"
 #include "ops/cavity.h"
 #include "ops/vertex_ball.h"

@@ -7,6 +7,7 @@
 //     \ /   \ /            \|    \|/
 //      s-----t              s-----t
 #include "kernel/star.h"
+#include "kernel/workspace.h"
 #include "ops/builtin_operators.h"
 #include "ops/refilling.h"
 #include "ops/where.h"

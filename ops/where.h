@@ -6,6 +6,7 @@
 
 #include "kernel/surface_guard.h"
 #include "kernel/surface_shell.h"
+#include "kernel/workspace.h"
 #include "ops/operator.h"
 
 namespace tetmend {

@@ -11,6 +11,7 @@
 #include "kernel/error.h"
 #include "kernel/star.h"
 #include "kernel/wanted_lengths.h"
+#include "kernel/workspace.h"
 #include "schedule/sweep.h"
 #include "search/covering_search.h"
 

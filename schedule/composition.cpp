@@ -12,6 +12,7 @@
 #include <fmt/ranges.h>
 
 #include "kernel/error.h"
+#include "kernel/workspace.h"
 
 namespace tetmend {
 

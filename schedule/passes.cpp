@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "kernel/size_field.h"
+#include "kernel/workspace.h"
 #include "schedule/queue.h"
 #include "schedule/sweep.h"
 

@@ -8,6 +8,7 @@
 #include <tbb/task_arena.h>
 
 #include "kernel/first_failure.h"
+#include "kernel/workspace.h"
 
 namespace tetmend {
 

@@ -18,6 +18,7 @@
 #include <tbb/enumerable_thread_specific.h>
 
 #include "kernel/statistics.h"
+#include "kernel/workspace.h"
 #include "ops/registry.h"
 #include "schedule/partition.h"
 #include "schedule/selection.h"

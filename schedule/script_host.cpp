@@ -12,6 +12,7 @@
 #include "kernel/nearest_word.h"
 #include "kernel/printable.h"
 #include "kernel/statistics.h"
+#include "kernel/workspace.h"
 #include "schedule/adapt.h"
 #include "schedule/limit/surface_limit.h"
 #include "schedule/lua_library.h"

@@ -11,7 +11,17 @@
 #include <string_view>
 #include <vector>
 
+#include <Eigen/Core>
+// Boxes alone, see kernel/geometry.h.
+#if EIGEN_VERSION_AT_LEAST(3, 4, 90)
 #include <Eigen/Geometry>
+#else
+// clang-format off
+#include <Eigen/src/Core/util/DisableStupidWarnings.h>
+#include <Eigen/src/Geometry/AlignedBox.h>
+#include <Eigen/src/Core/util/ReenableStupidWarnings.h>
+// clang-format on
+#endif
 
 #include "kernel/tet_mesh.h"
 

@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "kernel/first_failure.h"
+#include "kernel/workspace.h"
 
 namespace tetmend {
 

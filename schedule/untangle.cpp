@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "kernel/star.h"
+#include "kernel/workspace.h"
 #include "schedule/passes.h"
 #include "schedule/tangle.h"
 #include "search/untangler.h"

@@ -22,6 +22,7 @@
 #include "kernel/error.h"
 #include "kernel/judge_limits.h"
 #include "kernel/star.h"
+#include "kernel/workspace.h"
 #include "schedule/neighbourhood.h"
 #include "schedule/queue.h"
 

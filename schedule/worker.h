@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "kernel/index_set.h"
+#include "kernel/workspace.h"
 #include "ops/attempt_inspector.h"
 
 namespace tetmend {

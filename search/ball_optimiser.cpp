@@ -11,6 +11,7 @@
 #include <limits>
 
 #include "kernel/judge.h"
+#include "kernel/quality_of_points.h"
 
 namespace tetmend {
 
@@ -150,7 +151,7 @@ double BallOptimiser::own_worst_square(const Point& p, std::vector<Values>& squa
                                        double least_square) const {
   double worst = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < size_; ++i) {
-    const double q = standard_.quality(p, corner(ax, i), corner(bx, i), corner(cx, i));
+    const double q = quality_of_points(standard_, p, corner(ax, i), corner(bx, i), corner(cx, i));
     const double square = q * std::abs(q);
     squares[i / kLanes].of[0][i % kLanes] = square;
     worst = std::min(worst, square);
@@ -194,7 +195,8 @@ void BallOptimiser::add_own_gradient(std::size_t i, const Point& p, unsigned& co
     Point more = p, less = p;
     more[axis] += step;
     less[axis] -= step;
-    gradient[axis] = (standard_.quality(more, a, b, c) - standard_.quality(less, a, b, c)) /
+    gradient[axis] = (quality_of_points(standard_, more, a, b, c) -
+                      quality_of_points(standard_, less, a, b, c)) /
                      (more[axis] - less[axis]);
   }
   if (gradient.allFinite()) gradients_[count++] = gradient;

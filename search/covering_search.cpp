@@ -10,6 +10,8 @@
 
 #include <cmath>
 
+#include "kernel/quality_of_points.h"
+
 namespace tetmend {
 
 namespace {
@@ -94,7 +96,7 @@ Quality BasicCoveringSearch<Worst>::above_floor(double v6, double smallest, doub
 template <unsigned Worst>
 Quality BasicCoveringSearch<Worst>::uneven_above_floor(const Point& a, const Point& b,
                                                        const Point& c, const Point& d) const {
-  const auto q = static_cast<Quality>(standard_.quality(a, b, c, d));
+  const auto q = static_cast<Quality>(quality_of_points(standard_, a, b, c, d));
   return q > std::max(floor_, Quality{0}) ? q : 0;
 }
 

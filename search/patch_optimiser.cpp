@@ -13,6 +13,7 @@
 
 #include "kernel/handles.h"
 #include "kernel/judge.h"
+#include "kernel/quality_of_points.h"
 
 namespace tetmend {
 
@@ -155,7 +156,7 @@ bool PatchOptimiser::measure(const std::vector<Point>& points, std::vector<Terms
     }
     if (standard_.is_own()) {
       const auto& p = tet.corners;
-      terms[n] = all_terms(standard_.quality(p[0], p[1], p[2], p[3]));
+      terms[n] = all_terms(quality_of_points(standard_, p[0], p[1], p[2], p[3]));
       continue;
     }
     for (unsigned e = 0; e < 6; ++e) terms[n][e] = shape.v6 * shape.ratio(e, standard_);
@@ -224,7 +225,7 @@ void PatchOptimiser::add_own_gradient(const Tet& tet, double weight,
     const auto quality = [&](int axis, double offset) {
       auto p = tet.corners;
       p[i][axis] += offset;
-      return standard_.quality(p[0], p[1], p[2], p[3]);
+      return quality_of_points(standard_, p[0], p[1], p[2], p[3]);
     };
     Point slope;
     for (int axis = 0; axis < 3; ++axis) {

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "kernel/judge.h"
+#include "kernel/quality_of_points.h"
 
 namespace tetmend {
 
@@ -261,8 +262,8 @@ Quality PolyhedronSearch::quality(PointMask tet) {
   const auto [a, b, c, d] = corners_of<4>(tet);
   Quality& known = quality_[SideTable::rank(a, b, c, d)];
   if (known == kUnknown) {
-    known = static_cast<Quality>(std::abs(
-        standard_.quality(table_.point(a), table_.point(b), table_.point(c), table_.point(d))));
+    known = static_cast<Quality>(std::abs(quality_of_points(
+        standard_, table_.point(a), table_.point(b), table_.point(c), table_.point(d))));
   }
   return known;
 }

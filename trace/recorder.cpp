@@ -221,9 +221,9 @@ void TraceRecorder::visit_ends() {
   visit_.reset();
 }
 
-void TraceRecorder::standard_changed(const Standard& standard) {
+void TraceRecorder::standard_changed(const Standard& /*standard*/) {
   record([&] {
-    encoder_.standard_changes(standard, ticks());
+    encoder_.standard_changes(mesh_, ticks());
     wrote_event();
   });
 }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <limits>
 
 #include <fmt/format.h>
@@ -56,9 +57,10 @@ Label decode_label(ByteReader& in, Label from) {
   return static_cast<Label>(from + step);
 }
 
-/// Of a mesh of ordinary size nothing is written.
-Scale decode_scale(ByteReader& in) {
+/// Of a mesh of ordinary size nothing is written, unless qualities follow.
+Scale decode_scale(ByteReader& in, bool may_be_one) {
   const std::int64_t exponent = in.get_signed();
+  if (exponent == 0 && may_be_one) return {};
   if (exponent == 0 || exponent < -Scale::kLargest || exponent > Scale::kLargest + 1) {
     throw ByteReader::Damage(fmt::format("a scale of 2^{}", exponent));
   }
@@ -113,6 +115,7 @@ SlotMesh::SlotMesh(const TetMesh& mesh) : standard_(mesh.standard()), scale_(mes
     labels_.push_back(mesh.label(t));
     if (!mesh.is_deleted(t) && mesh.is_frozen(t)) frozen_tets_.push_back(i);
   }
+  if (standard_.is_own()) noted_qualities_ = qualities_of_tets(mesh);
   tet_count_ = mesh.tet_count();
   vertex_count_ = mesh.vertex_count();
   const MeshView view(mesh);
@@ -128,6 +131,31 @@ SlotMesh::SlotMesh(const TetMesh& mesh) : standard_(mesh.standard()), scale_(mes
   for (const std::uint32_t v : view.required_vertices()) {
     required_vertices_.push_back(slots.empty() ? v : slots[v]);
   }
+}
+
+namespace {
+
+std::vector<Quality> list_qualities(const auto& mesh) {
+  std::vector<Quality> qualities;
+  qualities.reserve(mesh.tet_count());
+  for (std::uint32_t i = 0; i < mesh.tet_slots(); ++i) {
+    if (!mesh.is_deleted(TetHandle(i))) qualities.push_back(mesh.quality(TetHandle(i)));
+  }
+  return qualities;
+}
+
+}  // namespace
+
+std::vector<Quality> qualities_of_tets(const TetMesh& mesh) {
+  return list_qualities(mesh);
+}
+
+std::vector<Quality> qualities_of_tets(const SlotMesh& mesh) {
+  return list_qualities(mesh);
+}
+
+Standard standard_of_drawings(const SlotMesh& mesh) {
+  return mesh.standard().is_own() ? mesh.standard().of_angles() : mesh.standard();
 }
 
 Quality SlotMesh::quality(TetHandle t) const {
@@ -232,7 +260,10 @@ void SlotMesh::encode(ByteWriter& out) const {
   encode_named<MeshData::Edge>(out, edges_);
   encode_slots(out, required_vertices_);
   encode_slots(out, frozen_tets_);
-  if (!scale_.is_one()) out.put_signed(scale_.exponent());
+  if (!scale_.is_one() || standard_.is_own()) out.put_signed(scale_.exponent());
+  if (!standard_.is_own()) return;
+  out.put(noted_qualities_.size());
+  out.put_bytes(noted_qualities_.data(), noted_qualities_.size() * sizeof(Quality));
 }
 
 void SlotMesh::decode_vertices(ByteReader& in) {
@@ -269,6 +300,18 @@ void SlotMesh::decode_tets(ByteReader& in) {
   for (Label& next : labels_) next = label = decode_label(in, label);
 }
 
+void SlotMesh::decode_noted_qualities(ByteReader& in) {
+  noted_qualities_.resize(in.get_count(sizeof(Quality)));
+  in.get_bytes(noted_qualities_.data(), noted_qualities_.size() * sizeof(Quality));
+  if (noted_qualities_.size() != tet_count_) {
+    throw ByteReader::Damage(
+        fmt::format("{} qualities of {} tets", noted_qualities_.size(), tet_count_));
+  }
+  for (const Quality q : noted_qualities_) {
+    if (!std::isfinite(q)) throw ByteReader::Damage("a quality is no finite number");
+  }
+}
+
 void SlotMesh::check_corners(const TetVertices& tet) const {
   for (unsigned i = 0; i < 4; ++i) {
     if (is_deleted(tet[i])) {
@@ -300,9 +343,10 @@ SlotMesh SlotMesh::decode(ByteReader& in) {
     throw ByteReader::Damage("frozen tets are not in order");
   }
   if (!in.at_end()) {
-    mesh.scale_ = decode_scale(in);
+    mesh.scale_ = decode_scale(in, mesh.standard_.is_own());
     for (const Point& p : mesh.points_) mesh.check_place(p);
   }
+  if (!in.at_end() && mesh.standard_.is_own()) mesh.decode_noted_qualities(in);
   if (!in.at_end()) throw ByteReader::Damage("bytes behind the mesh");
   return mesh;
 }

@@ -37,7 +37,8 @@ class SlotMesh {
   /// By which tets are judged.
   const Standard& standard() const { return standard_; }
   void set_standard(const Standard& standard) { standard_ = standard; }
-  /// Computed from the points: the bits that TetMesh::quality() had.
+  /// Computed from the points, or what the trace noted of them: the bits that TetMesh::quality()
+  /// had.
   Quality quality(TetHandle t) const;
 
   /// What the file of the mesh named: these never change. Vertices by slot.
@@ -54,6 +55,11 @@ class SlotMesh {
   /// are there. `vertex_slots` gets the slot of each point.
   MeshData extract(std::span<const TetHandle> tets,
                    std::vector<std::uint32_t>* vertex_slots = nullptr) const;
+
+  /// By a measure of a program: the qualities of all tets, by slot, as the run had them when it
+  /// began. Else empty, and of older traces.
+  std::span<const Quality> noted_qualities() const { return noted_qualities_; }
+  void forget_noted_qualities() { noted_qualities_ = {}; }
 
   /// A number that tells meshes apart: of handles, points and labels of all that is live.
   std::uint64_t fingerprint() const;
@@ -76,6 +82,7 @@ class SlotMesh {
  private:
   void decode_vertices(ByteReader& in);
   void decode_tets(ByteReader& in);
+  void decode_noted_qualities(ByteReader& in);
 
   Standard standard_ = Standard(Goal{});
   std::vector<TetVertices> tets_;
@@ -89,7 +96,16 @@ class SlotMesh {
   std::vector<MeshData::Edge> edges_;
   std::vector<std::uint32_t> required_vertices_;
   std::vector<std::uint32_t> frozen_tets_;
+  std::vector<Quality> noted_qualities_;
 };
+
+/// By which tets are drawn that were never made: a measure of a program is known of those that
+/// were.
+Standard standard_of_drawings(const SlotMesh& mesh);
+
+/// Of all live tets, by slot.
+std::vector<Quality> qualities_of_tets(const TetMesh& mesh);
+std::vector<Quality> qualities_of_tets(const SlotMesh& mesh);
 
 /// As of a TetMesh.
 bool misses_goal(const SlotMesh& mesh, TetHandle t);

@@ -22,6 +22,8 @@ class TraceAudit {
   void follow(const TraceEvent& event);
   /// Nothing before the next event may be undone any more.
   void begin_chunk() { playback_.forget_log(position_); }
+  /// After the last event.
+  const SlotMesh& mesh() const { return playback_.mesh(); }
 
  private:
   void check_names(const TraceEvent& event) const;

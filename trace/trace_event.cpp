@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <bit>
 #include <cassert>
+#include <cmath>
 
 #include <fmt/format.h>
 
+#include "trace/slot_mesh.h"
 #include "trace/traced_standard.h"
 
 namespace tetmend {
@@ -17,6 +19,8 @@ namespace {
 /// Stands for EventKind::replace_cavity at the surface: labels precede the tets. The kinds from that
 /// number on have one more in the file.
 constexpr std::uint64_t kAtSurface = 13;
+/// No kind: precedes an event that has `qualities`, and these.
+constexpr std::uint64_t kNoted = kEventKinds + 1;
 
 bool has_labels(const Journal& journal, const Edit& edit) {
   const auto begin = journal.removed.begin() + edit.removed_begin;
@@ -120,10 +124,14 @@ void EventEncoder::attempt_ends(Verdict verdict, std::span<const Quality> before
   put_qualities(now);
 }
 
-void EventEncoder::standard_changes(const Standard& standard, std::uint64_t ticks) {
+void EventEncoder::standard_changes(const TetMesh& mesh, std::uint64_t ticks) {
+  if (mesh.standard().is_own()) {
+    out_.put(kNoted);
+    put_qualities(qualities_of_tets(mesh));
+  }
   put_kind(EventKind::standard_changes);
   put_time(ticks);
-  put_standard(out_, standard);
+  put_standard(out_, mesh.standard());
 }
 
 void EventEncoder::parameter_changes(std::string_view text, std::uint64_t ticks) {
@@ -132,8 +140,24 @@ void EventEncoder::parameter_changes(std::string_view text, std::uint64_t ticks)
   put_name(text);
 }
 
+/// Of the tets that the last edit made or changed.
+void EventEncoder::note_qualities(const TetMesh& mesh, const Journal& journal) {
+  const Edit& edit = journal.edits.back();
+  qualities_.clear();
+  for (std::uint32_t k = edit.created_begin; k < edit.created_end; ++k) {
+    qualities_.push_back(mesh.quality(journal.created[k]));
+  }
+  for (std::uint32_t k = edit.qualities_begin; k < edit.qualities_end; ++k) {
+    qualities_.push_back(mesh.quality(journal.qualities[k].tet));
+  }
+  if (qualities_.empty()) return;
+  out_.put(kNoted);
+  put_qualities(qualities_);
+}
+
 void EventEncoder::edit(const TetMesh& mesh, const Journal& journal) {
   const Edit& edit = journal.edits.back();
+  if (mesh.standard().is_own()) note_qualities(mesh, journal);
   switch (edit.kind) {
     case Edit::Kind::replace_cavity:
       return replace_cavity(mesh, journal, edit);
@@ -278,7 +302,30 @@ void EventDecoder::get_star(TraceEvent& event) {
   for (TetHandle& t : event.removed) t = TetHandle(in_.get_step(last));
 }
 
+/// What precedes an event.
+void EventDecoder::get_noted(TraceEvent& event) {
+  get_qualities(event.qualities);
+  for (const Quality q : event.qualities) {
+    if (!std::isfinite(q)) throw ByteReader::Damage("a quality is no finite number");
+  }
+}
+
 namespace {
+
+/// A change of the standard is for those to check who know how many tets there are.
+void check_qualities(const TraceEvent& event) {
+  const bool fits = event.kind == EventKind::standard_changes
+                        ? event.standard.is_own()
+                        : event.qualities.size() == (event.kind == EventKind::replace_cavity
+                                                         ? event.created.size()
+                                                         : event.removed.size());
+  const bool may_have = event.kind == EventKind::standard_changes ||
+                        event.kind == EventKind::replace_cavity ||
+                        event.kind == EventKind::move_vertex;
+  if (!may_have || !fits) {
+    throw ByteReader::Damage("qualities, and not of the tets of their event");
+  }
+}
 
 void check_labels(const TraceEvent& event) {
   if (event.created_labels.size() == event.created.size()) return;
@@ -297,7 +344,13 @@ QualityIndicators get_indicators(ByteReader& in) {
 }  // namespace
 
 void EventDecoder::next(TraceEvent& event) {
-  const std::uint64_t kind = in_.get();
+  std::uint64_t kind = in_.get();
+  event.qualities.clear();
+  const bool noted = kind == kNoted;
+  if (noted) {
+    get_noted(event);
+    kind = in_.get();
+  }
   if (kind > kEventKinds) throw ByteReader::Damage(fmt::format("{} is no kind of event", kind));
   event.kind = kind == kAtSurface ? EventKind::replace_cavity
                                   : static_cast<EventKind>(kind < kAtSurface ? kind : kind - 1);
@@ -356,6 +409,7 @@ void EventDecoder::next(TraceEvent& event) {
     case EventKind::undo:
       break;
   }
+  if (noted) check_qualities(event);
 }
 
 }  // namespace tetmend

@@ -75,6 +75,10 @@ struct TraceEvent {
   /// Of a cavity at the surface, whose hull may change there, one for each of `created`. Empty for
   /// a cavity inside: there they are those of `removed`.
   std::vector<Label> created_labels;
+  /// By a measure of a program, which readers of the trace do not have: of an edit, the qualities
+  /// of `created`, or of the star; of a change of the standard, those of all tets, by slot. Empty
+  /// where tetmend knows the measure.
+  std::vector<Quality> qualities;
 };
 
 /// Writes events into the content of a chunk. Each chunk can be read by itself.
@@ -96,7 +100,8 @@ class EventEncoder {
   void candidate_found();
   void attempt_ends(Verdict verdict, std::span<const Quality> before, std::span<const Quality> now,
                     std::uint64_t ticks);
-  void standard_changes(const Standard& standard, std::uint64_t ticks);
+  /// Of `mesh`, which has it.
+  void standard_changes(const TetMesh& mesh, std::uint64_t ticks);
   /// "smoothing: cycles = 3"
   void parameter_changes(std::string_view text, std::uint64_t ticks);
   /// The last edit of the journal.
@@ -109,6 +114,7 @@ class EventEncoder {
   void put_name(std::string_view name);
   void put_vertices(std::span<const VertexHandle> vertices);
   void put_qualities(std::span<const Quality> qualities);
+  void note_qualities(const TetMesh& mesh, const Journal& journal);
   void replace_cavity(const TetMesh& mesh, const Journal& journal, const Edit& edit);
   void put_labels(const TetMesh& mesh, const Journal& journal, const Edit& edit);
 
@@ -116,6 +122,7 @@ class EventEncoder {
   std::uint64_t last_ticks_ = 0;
   std::vector<std::string> names_;           // of this chunk
   std::array<std::uint8_t, 256> guesses_{};  // numbers of names, by the place of their text
+  std::vector<Quality> qualities_;
 };
 
 /// Reads the events of a chunk.
@@ -144,6 +151,7 @@ class EventDecoder {
   void get_cavity(TraceEvent& event);
   void get_labels(TraceEvent& event);
   void get_star(TraceEvent& event);
+  void get_noted(TraceEvent& event);
 
   ByteReader in_{{}};
   std::uint64_t ticks_ = 0;

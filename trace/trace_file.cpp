@@ -56,13 +56,14 @@ void TraceFile::read() {
   try {
     read_beginning();
     std::optional<TraceAudit> audit;
-    if (!has_start_) audit.emplace(mesh_);
+    if (!has_start_ || standard_.is_own()) audit.emplace(mesh_);
     read_chunks(audit ? &*audit : nullptr);
   } catch (const ByteReader::Damage& damage) {
     throw Error(fmt::format("{}: byte {}: event {}: {}", path_.string(), frames_.offset(), events_,
                             damage.what()));
   }
   close_all();
+  measures_.complete();
 }
 
 /// The content of the next frame, which lies in `frame`.
@@ -87,7 +88,9 @@ void TraceFile::read_beginning() {
       ByteReader mesh = frame_of('M', frame);
       mesh_ = SlotMesh::decode(mesh);
     }
-    standard_ = mesh_.standard();
+    standard_ = measures_.known(mesh_.standard());
+    mesh_.set_standard(standard_);
+    note_initial_qualities();
   } catch (const ByteReader::Damage& damage) {
     throw Error(fmt::format("{}: byte {}: damaged before its first event: {}", path_.string(),
                             frames_.offset(), damage.what()));
@@ -154,9 +157,53 @@ void TraceFile::index_chunk(const std::vector<std::byte>& frame, TraceAudit* aud
     decoder.next(event);
     if (audit != nullptr) audit->follow(event);
     index_event(event);
+    if (!event.qualities.empty()) {
+      if (audit == nullptr) throw ByteReader::Damage("qualities by a measure that was not there");
+      note_qualities(event, audit->mesh());
+    }
     ++events_;
   }
   if (!decoder.at_end()) throw ByteReader::Damage("a chunk has more events than it counts");
+}
+
+void TraceFile::note_quality(const SlotMesh& mesh, const TetVertices& tet, Quality quality) {
+  measures_.note(standard_,
+                 {mesh.point(tet[0]), mesh.point(tet[1]), mesh.point(tet[2]), mesh.point(tet[3])},
+                 quality);
+}
+
+void TraceFile::note_initial_qualities() {
+  std::size_t k = 0;
+  for (std::uint32_t i = 0; i < mesh_.tet_slots() && k < mesh_.noted_qualities().size(); ++i) {
+    if (mesh_.is_deleted(TetHandle(i))) continue;
+    note_quality(mesh_, mesh_.vertices(TetHandle(i)), mesh_.noted_qualities()[k++]);
+  }
+  mesh_.forget_noted_qualities();
+}
+
+/// Those of an event, which `mesh` has seen.
+void TraceFile::note_qualities(const TraceEvent& event, const SlotMesh& mesh) {
+  if (!standard_.is_own()) {
+    throw ByteReader::Damage("qualities by a measure of a program, and tets are judged by none");
+  }
+  const auto& qualities = event.qualities;
+  if (event.kind == EventKind::standard_changes) {
+    if (qualities.size() != mesh.tet_count()) {
+      throw ByteReader::Damage(
+          fmt::format("{} qualities of {} tets", qualities.size(), mesh.tet_count()));
+    }
+    std::size_t k = 0;
+    for (std::uint32_t i = 0; i < mesh.tet_slots(); ++i) {
+      if (mesh.is_deleted(TetHandle(i))) continue;
+      note_quality(mesh, mesh.vertices(TetHandle(i)), qualities[k++]);
+    }
+    return;
+  }
+  const bool moved = event.kind == EventKind::move_vertex;
+  for (std::size_t k = 0; k < qualities.size(); ++k) {
+    note_quality(mesh, moved ? mesh.vertices(event.removed[k]) : event.created_vertices[k],
+                 qualities[k]);
+  }
 }
 
 EventRange TraceFile::begin_of(const TraceEvent& event) const {
@@ -277,7 +324,7 @@ void TraceFile::index_event(const TraceEvent& event) {
       parameter_changes_.push_back({events_, event.name});
       break;
     case EventKind::standard_changes:
-      standard_ = event.standard;
+      standard_ = measures_.known(event.standard);
       break;
   }
   seconds_ = event.seconds;
@@ -395,6 +442,8 @@ const TraceEvent& EventCursor::next() {
   const std::size_t following = chunk_ + 1;  // the first, when none is open
   if (position_ == chunk_end_) open_chunk(following);
   decoder_.next(event_);
+  if (event_.kind == EventKind::standard_changes)
+    event_.standard = file_.measures_.of(event_.standard);
   ++position_;
   return event_;
 }

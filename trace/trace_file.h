@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "trace/call_ending.h"
+#include "trace/recorded_measures.h"
 #include "trace/recorder.h"
 #include "trace/slot_mesh.h"
 #include "trace/trace_event.h"
@@ -161,6 +162,9 @@ class TraceFile {
   EventRange begin_of(const TraceEvent& event) const;
   void close(EventRange& range, double seconds) const;
   void close_all();
+  void note_initial_qualities();
+  void note_qualities(const TraceEvent& event, const SlotMesh& mesh);
+  void note_quality(const SlotMesh& mesh, const TetVertices& tet, Quality quality);
 
   std::filesystem::path path_;
   FrameReader frames_;
@@ -187,7 +191,8 @@ class TraceFile {
   std::vector<Standing> accepted_;  // and not undone so far in this chunk; `edits` never falls
   bool visit_open_ = false;
   bool pass_open_ = false;
-  Standard standard_;   // at the event read last
+  Standard standard_;  // at the event read last
+  RecordedMeasures measures_;
   double seconds_ = 0;  // of the event read last
 };
 

@@ -23,6 +23,7 @@
 #include "kernel/formats/mesh_io.h"
 #include "kernel/formats/output_file.h"
 #include "kernel/shell.h"
+#include "kernel/workspace.h"
 #include "ops/registry.h"
 #include "schedule/run.h"
 #include "schedule/schedule.h"

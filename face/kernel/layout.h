@@ -9,6 +9,7 @@
 
 #include <tetmend/api.h>
 
+#include "kernel/edit.h"
 #include "kernel/transaction.h"
 
 namespace tetmend::kernel {
@@ -24,8 +25,7 @@ constexpr std::uint32_t sum_of_sizes() {
   std::uint32_t sum = 2166136261u;
   for (const std::size_t size :
        {sizeof(void*), sizeof(std::string), sizeof(std::vector<int>), sizeof(Point), alignof(Point),
-        sizeof(tetmend::TetMesh), sizeof(Workspace), sizeof(tetmend::Transaction), sizeof(Journal),
-        sizeof(Edit)}) {
+        sizeof(tetmend::TetMesh), sizeof(tetmend::Transaction), sizeof(Journal), sizeof(Edit)}) {
     sum = (sum ^ static_cast<std::uint32_t>(size)) * 16777619u;
   }
   return sum;

@@ -25,7 +25,14 @@ struct OperatorTools {
   static bool is_live(const TetMesh& mesh, Target target);
   /// @throws Error unless the operator is for it
   static void check_target(std::string_view name, TargetKind kind, Target target);
-  Call attempt(TetMesh& mesh, const Operator& op, Target target, bool keeps);
+  /// @param observer told of all, but not of the undo at the end; null: nobody
+  Call attempt(TetMesh& mesh, const Operator& op, Target target, bool keeps,
+               TraceSink* observer = nullptr);
+  static Call attempt_at(TetMesh& mesh, std::string_view operator_name, Target target,
+                         const ParameterSettings& settings, bool keeps,
+                         TraceSink* observer = nullptr);
+  static std::string trace_of_attempt(TetMesh& mesh, std::string_view operator_name, Target target,
+                                      const ParameterSettings& settings);
   Call attempt_own(TetMesh& mesh, const Operators::Own& op, Target target, bool keeps);
   bool accepts(const Judge& judge, Target target, const TetVertices& corners,
                const Transaction& scope);

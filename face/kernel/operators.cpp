@@ -6,9 +6,12 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <tetmend/catalogue.h>
 
 #include "face/kernel/operator_tools.h"
 #include "face/kernel/transaction.h"
+#include "kernel/workspace.h"
+#include "trace/recorder.h"
 
 namespace tetmend::kernel {
 
@@ -17,7 +20,10 @@ namespace {
 /// Attempts as a tree.
 class CallTree final : public TraceSink {
  public:
+  explicit CallTree(TraceSink* observer) : observer_(observer) {}
+
   void attempt_begins(const AttemptEvent& event) override {
+    if (observer_ != nullptr) observer_->attempt_begins(event);
     Call call;
     call.operator_name = event.operator_name;
     call.target.assign(event.target.begin(), event.target.end());
@@ -26,6 +32,7 @@ class CallTree final : public TraceSink {
   }
   void attempt_ends(Verdict verdict, std::span<const Quality> before,
                     std::span<const Quality> now) override {
+    if (observer_ != nullptr) observer_->attempt_ends(verdict, before, now);
     Call call = std::move(open_.back());
     open_.pop_back();
     call.verdict = verdict;
@@ -37,13 +44,21 @@ class CallTree final : public TraceSink {
       open_.back().children.push_back(std::move(call));
     }
   }
-  void edit_made(const tetmend::TetMesh&, const Journal&) noexcept override {
+  void candidate_found() override {
+    if (observer_ != nullptr) observer_->candidate_found();
+  }
+  void edit_made(const tetmend::TetMesh& mesh, const Journal& journal) noexcept override {
+    if (observer_ != nullptr) observer_->edit_made(mesh, journal);
     if (!open_.empty()) ++open_.back().edits;
+  }
+  void edit_undone() noexcept override {
+    if (observer_ != nullptr) observer_->edit_undone();
   }
 
   Call root;
 
  private:
+  TraceSink* observer_;
   std::vector<Call> open_;
 };
 
@@ -116,9 +131,10 @@ void OperatorTools::check_target(std::string_view name, TargetKind kind, Target 
                           to_string(kind), to_string(target.kind)));
 }
 
-Call OperatorTools::attempt(TetMesh& mesh, const Operator& op, Target target, bool keeps) {
+Call OperatorTools::attempt(TetMesh& mesh, const Operator& op, Target target, bool keeps,
+                            TraceSink* observer) {
   PropertyKeeper& keeper = *mesh.keeper_;
-  CallTree tree;
+  CallTree tree(observer);
   keeper.start();
   Transaction scope(mesh);
   {
@@ -148,8 +164,8 @@ Call OperatorTools::attempt(TetMesh& mesh, const Operator& op, Target target, bo
   return call;
 }
 
-Call attempt_at(TetMesh& mesh, std::string_view operator_name, Target target,
-                const ParameterSettings& settings, bool keeps) {
+Call OperatorTools::attempt_at(TetMesh& mesh, std::string_view operator_name, Target target,
+                               const ParameterSettings& settings, bool keeps, TraceSink* observer) {
   OperatorTools& tools = OperatorTools::of(mesh);
   std::unique_ptr<Operator> own;
   if (!settings.empty()) own = tools.registry.make(operator_name, settings);
@@ -164,7 +180,30 @@ Call attempt_at(TetMesh& mesh, std::string_view operator_name, Target target,
     call.verdict = Verdict::constrained;
     return call;
   }
-  return tools.attempt(mesh, op, target, keeps);
+  return tools.attempt(mesh, op, target, keeps, observer);
+}
+
+std::string OperatorTools::trace_of_attempt(TetMesh& mesh, std::string_view operator_name,
+                                            Target target, const ParameterSettings& settings) {
+  mesh.check_closed("trace_of_attempt()");
+  TraceHeader header;
+  header.program = fmt::format("tetmend {}", version());
+  header.schedule = "an attempt";
+  std::string bytes;
+  TraceRecorder recorder(bytes, mesh.mesh_, std::move(header));
+  attempt_at(mesh, operator_name, target, settings, false, &recorder);
+  recorder.finish();
+  return bytes;
+}
+
+Call attempt_at(TetMesh& mesh, std::string_view operator_name, Target target,
+                const ParameterSettings& settings, bool keeps) {
+  return OperatorTools::attempt_at(mesh, operator_name, target, settings, keeps);
+}
+
+std::string trace_of_attempt(TetMesh& mesh, std::string_view operator_name, Target target,
+                             const ParameterSettings& settings) {
+  return OperatorTools::trace_of_attempt(mesh, operator_name, target, settings);
 }
 
 }  // namespace tetmend::kernel

@@ -11,8 +11,8 @@
 #include <tetmend/api.h>
 
 #include "face/kernel/tet_mesh.h"
-#include "ops/operator.h"
 #include "ops/parameters.h"
+#include "ops/target.h"
 #include "trace/verdict.h"
 
 namespace tetmend::kernel {
@@ -44,6 +44,12 @@ struct TETMEND_API Call {
 /// See attempt() and try_only().
 TETMEND_API Call attempt_at(TetMesh& mesh, std::string_view operator_name, Target target,
                             const ParameterSettings& settings, bool keeps);
+
+/// try_only(), written down: the bytes of a trace (docs/trace.md) whose first call is the attempt,
+/// with what it did not undone. Cost: linear in the mesh. @throws Error as attempt() does, and
+/// while a transaction is open
+TETMEND_API std::string trace_of_attempt(TetMesh& mesh, std::string_view operator_name,
+                                         Target target, const ParameterSettings& settings = {});
 
 /// Tries an operator of tetmend at a tet, an edge, a face or a vertex, whichever it is for. What it
 /// does stays if the operator's judge accepts it; otherwise the mesh is as it was, bit for bit. At

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "kernel/transaction.h"
+#include "kernel/workspace.h"
 
 namespace tetmend::kernel {
 

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "face/kernel/operator_tools.h"
+#include "kernel/workspace.h"
 
 namespace tetmend::kernel {
 

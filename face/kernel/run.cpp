@@ -3,64 +3,74 @@
 #include "face/kernel/run.h"
 
 #include <algorithm>
+#include <initializer_list>
+#include <memory>
 #include <optional>
+#include <vector>
 
 #include <fmt/format.h>
+#include <tetmend/catalogue.h>
 
 #include "face/arena.h"
 #include "face/kernel/own_operator.h"
 #include "kernel/mesh_renewal.h"
+#include "kernel/workspace.h"
 #include "ops/registry.h"
 #include "schedule/run.h"
 #include "schedule/schedule.h"
+#include "trace/recorder.h"
 
 namespace tetmend::kernel {
 
 namespace {
 
-/// Properties follow the edits of passes, and the program looks on.
+/// Properties follow the edits of passes, the program looks on, and a trace is written.
 class EditTeller final : public TraceSink {
  public:
-  EditTeller(PropertyKeeper* keeper, TraceSink* observer) : keeper_(keeper), observer_(observer) {}
+  EditTeller(PropertyKeeper* keeper, std::initializer_list<TraceSink*> sinks) : keeper_(keeper) {
+    for (TraceSink* sink : sinks) {
+      if (sink != nullptr) sinks_.push_back(sink);
+    }
+  }
 
-  bool is_needed() const { return keeper_ != nullptr || observer_ != nullptr; }
+  bool is_needed() const { return keeper_ != nullptr || !sinks_.empty(); }
   void attempt_begins(const AttemptEvent& event) override {
-    if (observer_ != nullptr) observer_->attempt_begins(event);
+    for (TraceSink* sink : sinks_) sink->attempt_begins(event);
   }
   void attempt_ends(Verdict verdict, std::span<const Quality> before,
                     std::span<const Quality> now) override {
-    if (observer_ != nullptr) observer_->attempt_ends(verdict, before, now);
+    for (TraceSink* sink : sinks_) sink->attempt_ends(verdict, before, now);
   }
   void candidate_found() override {
-    if (observer_ != nullptr) observer_->candidate_found();
+    for (TraceSink* sink : sinks_) sink->candidate_found();
   }
   void pass_begins(std::string_view name, unsigned round) override {
-    if (observer_ != nullptr) observer_->pass_begins(name, round);
+    for (TraceSink* sink : sinks_) sink->pass_begins(name, round);
   }
   void pass_ends(const QualityIndicators& now) override {
-    if (observer_ != nullptr) observer_->pass_ends(now);
+    for (TraceSink* sink : sinks_) sink->pass_ends(now);
   }
   void visit_begins(const TetVertices& tet, Quality quality) override {
-    if (observer_ != nullptr) observer_->visit_begins(tet, quality);
+    for (TraceSink* sink : sinks_) sink->visit_begins(tet, quality);
   }
   void visit_ends() override {
-    if (observer_ != nullptr) observer_->visit_ends();
+    for (TraceSink* sink : sinks_) sink->visit_ends();
   }
   void standard_changed(const Standard& standard) override {
-    if (observer_ != nullptr) observer_->standard_changed(standard);
+    for (TraceSink* sink : sinks_) sink->standard_changed(standard);
   }
   void edit_made(const tetmend::TetMesh& mesh, const Journal& journal) noexcept override {
     if (keeper_ != nullptr) keeper_->edit_made(mesh, journal);
-    if (observer_ != nullptr) observer_->edit_made(mesh, journal);
+    for (TraceSink* sink : sinks_) sink->edit_made(mesh, journal);
   }
   void edit_undone() noexcept override {
     if (keeper_ != nullptr) keeper_->edit_undone();
-    if (observer_ != nullptr) observer_->edit_undone();
+    for (TraceSink* sink : sinks_) sink->edit_undone();
   }
 
  private:
   PropertyKeeper* keeper_;
-  TraceSink* observer_;
+  std::vector<TraceSink*> sinks_;
 };
 
 PassDone told_of(const PassRecord& record) {
@@ -76,8 +86,25 @@ struct Run::Inside {
     if (options.operators != nullptr) add_to(registry, *options.operators, &mesh);
   }
 
+  /// The trace goes on, or begins with the mesh as it is. @throws Error where the mesh is another
+  /// than it knows
+  void record() {
+    if (options.trace.empty() || is_recorded) return;
+    if (recorder && stamp != mesh.stamp_) {
+      throw Error(fmt::format("{}: the mesh was changed by something else than passes",
+                              options.trace.string()));
+    }
+    if (recorder) return;
+    TraceHeader header;
+    header.program = fmt::format("tetmend {}", version());
+    header.schedule = "passes of a program";
+    recorder = std::make_unique<TraceRecorder>(options.trace, mesh.mesh_, std::move(header));
+  }
+
   TetMesh& mesh;
   const RunOptions options;
+  std::unique_ptr<TraceRecorder> recorder;
+  bool is_recorded = false;  // the trace is finished
   Registry registry = Registry::builtin();
   std::optional<tetmend::Run> run;  // while the mesh is as its last pass has left it
   std::size_t stamp = 0;            // of the mesh then
@@ -87,7 +114,19 @@ struct Run::Inside {
 
 Run::Run(TetMesh& mesh, RunOptions options)
     : inside_(std::make_unique<Inside>(mesh, std::move(options))) {}
-Run::~Run() = default;
+Run::~Run() {
+  try {
+    finish_trace();
+  } catch (const Error&) {  // as Run says
+  }
+}
+
+void Run::finish_trace() {
+  if (!inside_->recorder) return;
+  const std::unique_ptr<TraceRecorder> recorder = std::move(inside_->recorder);
+  inside_->is_recorded = true;
+  recorder->finish();
+}
 
 /// One pass or several, with all that belongs to the mesh of a program around them.
 template <class Pass>
@@ -95,10 +134,12 @@ std::vector<PassDone> Run::make(const Pass& pass) {
   Inside& in = *inside_;
   TetMesh& mesh = in.mesh;
   mesh.check_closed("a pass");
+  in.record();
   if (!in.run || in.stamp != mesh.stamp_) in.run.emplace(mesh.mesh_, in.registry);
   tetmend::Run& run = *in.run;
   PropertyKeeper& keeper = *mesh.keeper_;
-  EditTeller teller(keeper.is_needed() ? &keeper : nullptr, in.options.observer);
+  EditTeller teller(keeper.is_needed() ? &keeper : nullptr,
+                    {in.options.observer, in.recorder.get()});
   run.set_trace(teller.is_needed() ? &teller : nullptr);
   run.set_most_tets(in.options.most_tets);
   run.set_most_attempts(in.attempts_left);
@@ -122,6 +163,8 @@ std::vector<PassDone> Run::make(const Pass& pass) {
   } catch (...) {
     leave();
     in.run.reset();
+    in.is_recorded = in.is_recorded || in.recorder != nullptr;
+    in.recorder.reset();  // a run that fails leaves none
     throw;
   }
   leave();

@@ -4,7 +4,7 @@
 
 #include <atomic>
 #include <cstddef>
-#include <functional>
+#include <filesystem>
 #include <limits>
 #include <memory>
 #include <string>
@@ -56,6 +56,9 @@ struct TETMEND_API RunOptions {
   std::size_t most_tets = std::numeric_limits<std::size_t>::max();  ///< none is added above that
   std::size_t most_attempts = std::numeric_limits<std::size_t>::max();  ///< of all passes together
   const std::atomic<bool>* cancel = nullptr;  ///< passes end soon after it became true
+  /// A file for all that passes do, see docs/trace.md; empty: none. One thread works then. Only
+  /// passes may change the mesh until finish_trace(): another one throws Error.
+  std::filesystem::path trace = {};
 };
 
 /// One operator for ApplyOptions::what and for the parts of the following.
@@ -116,6 +119,10 @@ class TETMEND_API Run {
 
   /// Attempts ran out, or `cancel` was set.
   bool is_over() const;
+  /// The trace gets its name, and later passes are not in it. The destructor does the same, but
+  /// cannot tell of trouble.
+  /// @throws Error when the file could not be written
+  void finish_trace();
 
  private:
   struct Inside;

@@ -15,8 +15,18 @@
 #include "face/mid_nodes.h"
 #include "kernel/curved.h"
 #include "kernel/mesh_view.h"
+#include "kernel/workspace.h"
 
 namespace tetmend::kernel {
+
+PointView::PointView(std::span<const Point> points)
+    : first(points.empty() ? nullptr : points[0].data()), count(points.size()) {}
+PointView::PointView(const std::vector<Point>& points)
+    : PointView(std::span<const Point>(points)) {}
+PointView::PointView(std::span<const std::array<double, 3>> points)
+    : first(points.empty() ? nullptr : points[0].data()), count(points.size()) {}
+PointView::PointView(const std::vector<std::array<double, 3>>& points)
+    : PointView(std::span<const std::array<double, 3>>(points)) {}
 
 namespace {
 
@@ -257,6 +267,10 @@ void TetMesh::refuse_unknown(std::string_view what, std::string_view kind, std::
 
 void TetMesh::refuse_type(std::string_view name) {
   throw Error(fmt::format("property '{}' exists already, with another type", name));
+}
+
+bool TetMesh::has_lock(VertexHandle v) const {
+  return locks_ != nullptr && v.index() < locks_->values.size() && locks_->values[v.index()];
 }
 
 void TetMesh::set_lock(VertexHandle v, bool is_locked) {

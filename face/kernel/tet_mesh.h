@@ -24,7 +24,6 @@
 #include "kernel/geometry.h"
 #include "kernel/integrity.h"
 #include "kernel/tet_mesh.h"
-#include "kernel/workspace.h"
 
 #ifndef TETMEND_VERSION_TEXT  // the installed header says it
 #define TETMEND_VERSION_TEXT nullptr
@@ -63,13 +62,10 @@ struct TETMEND_API PointView {
 
   PointView(const double* first_of_all, std::size_t number, std::ptrdiff_t step = 3)
       : first(first_of_all), count(number), stride(step) {}
-  PointView(std::span<const Point> points)
-      : first(points.empty() ? nullptr : points[0].data()), count(points.size()) {}
-  PointView(const std::vector<Point>& points) : PointView(std::span<const Point>(points)) {}
-  PointView(std::span<const std::array<double, 3>> points)
-      : first(points.empty() ? nullptr : points[0].data()), count(points.size()) {}
-  PointView(const std::vector<std::array<double, 3>>& points)
-      : PointView(std::span<const std::array<double, 3>>(points)) {}
+  PointView(std::span<const Point> points);
+  PointView(const std::vector<Point>& points);
+  PointView(std::span<const std::array<double, 3>> points);
+  PointView(const std::vector<std::array<double, 3>>& points);
 };
 
 /// Where everything went: the new number of each old slot, or kGoneSlot.
@@ -323,9 +319,7 @@ class TETMEND_API TetMesh {
     if (t.index() >= mesh_.tet_slots()) refuse_unknown(what, "tet", t.index(), mesh_.tet_slots());
     return true;
   }
-  bool has_lock(VertexHandle v) const {
-    return locks_ != nullptr && v.index() < locks_->values.size() && locks_->values[v.index()];
-  }
+  bool has_lock(VertexHandle v) const;
   void set_lock(VertexHandle v, bool is_locked);
   /// A property becomes an array of to_mesh(), and begins as that of the Mesh, unless it is one already.
   void carry(PropertyTable& table, std::string_view name);

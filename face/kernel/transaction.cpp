@@ -7,6 +7,8 @@
 
 #include <fmt/format.h>
 
+#include "kernel/workspace.h"
+
 namespace tetmend::kernel {
 
 namespace {

@@ -9,6 +9,7 @@
 #include "kernel/ring_walk.h"
 #include "kernel/shell.h"
 #include "kernel/star.h"
+#include "kernel/workspace.h"
 
 namespace tetmend::kernel {
 

@@ -83,23 +83,23 @@ class TETMEND_API Mesh {
   // them out of the form in which the library works, once: 24 bytes a point and 20 a tet.
 
   /// Coordinates of each vertex.
-  std::span<const std::array<double, 3>> points() const { return elements().points; }
+  std::span<const std::array<double, 3>> points() const;
   /// Four vertices of each tet.
-  std::span<const std::array<std::uint32_t, 4>> tets() const { return elements().tets; }
+  std::span<const std::array<std::uint32_t, 4>> tets() const;
   /// Triangles with a name.
-  std::span<const std::array<std::uint32_t, 3>> triangles() const { return elements().triangles; }
+  std::span<const std::array<std::uint32_t, 3>> triangles() const;
   /// Edges with a name.
-  std::span<const std::array<std::uint32_t, 2>> edges() const { return elements().edges; }
+  std::span<const std::array<std::uint32_t, 2>> edges() const;
   /// Vertices that must neither move nor vanish.
-  std::span<const std::uint32_t> required_vertices() const { return elements().required_vertices; }
+  std::span<const std::uint32_t> required_vertices() const;
   /// A label for each vertex; empty where all are 0.
-  std::span<const std::int32_t> point_labels() const { return elements().point_labels; }
+  std::span<const std::int32_t> point_labels() const;
   /// The region of each tet.
-  std::span<const std::int32_t> tet_labels() const { return elements().tet_labels; }
+  std::span<const std::int32_t> tet_labels() const;
   /// A label for each triangle.
-  std::span<const std::int32_t> triangle_labels() const { return elements().triangle_labels; }
+  std::span<const std::int32_t> triangle_labels() const;
   /// A label for each edge.
-  std::span<const std::int32_t> edge_labels() const { return elements().edge_labels; }
+  std::span<const std::int32_t> edge_labels() const;
 
   // Without a copy; valid until the mesh changes.
 

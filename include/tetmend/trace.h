@@ -144,6 +144,13 @@ class TETMEND_API Trace {
   /// The mesh after the first n events, 0 to event_count(). @throws Error when there are not so
   /// many. Cost: a microsecond for each of them.
   Mesh mesh_at(std::uint64_t n) const;
+  /// Of each tet of mesh_at(n), in its order, the quality that the run had for it: below 1 it was
+  /// bad, and inverted below 0. Also by a measure of a program. @throws Error and cost: as
+  /// mesh_at()
+  std::vector<float> quality_at(std::uint64_t n) const;
+  /// What tets were judged by when the run began: "sine_and_length", "sine", or the name of a
+  /// measure of a program or of a plugin.
+  std::string_view measure() const;
 
   /// The whole of the run, by operator, level and ending: each call is in one entry, and none is
   /// empty. Cost: a tenth of a microsecond a call.

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include <Eigen/Geometry>
 #include <doctest/doctest.h>
 #include <tetmend/improve.h>
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // docs/library.md and kernel.md show programs that are compiled and run; the first has all options that there are.
+#include <algorithm>
 #include <regex>
 #include <string>
 #include <vector>
@@ -60,6 +61,32 @@ TEST_CASE("the ten programs of docs/kernel.md are those that the install test bu
   CHECK(blocks_of(page, "cmake").size() == 1);
   CHECK(read_text(programs / "CMakeLists.txt").find(blocks_of(page, "cmake")[0]) !=
         std::string::npos);
+}
+
+TEST_CASE("the ten programs of docs/kernel.md stay as short as a page of programs needs") {
+  struct Program {
+    std::vector<std::string> functions;
+    long most_lines;
+  };
+  const std::vector<Program> programs = {
+      {{"histogram"}, 7},     {{"look_around"}, 11},   {{"count_new"}, 9},
+      {{"smooth"}, 13},       {{"adapt_lengths"}, 21}, {{"worst", "flip_edges_away"}, 13},
+      {{"find_regions"}, 13}, {{"half_of"}, 4},        {{"refine"}, 35},
+      {{"largest_call"}, 12}};
+  const auto blocks = blocks_of(read_text(kSource / "docs/kernel.md"), "cpp");
+  for (const Program& program : programs) {
+    long lines = 0;
+    for (const std::string& function : program.functions) {
+      CAPTURE(function);
+      const auto block = std::find_if(blocks.begin(), blocks.end(), [&](const std::string& text) {
+        return text.substr(0, text.find('\n')).find(' ' + function + '(') != std::string::npos;
+      });
+      REQUIRE(block != blocks.end());
+      lines += std::count(block->begin(), block->end(), '\n');
+    }
+    CAPTURE(program.functions.front());
+    CHECK(lines <= program.most_lines);
+  }
 }
 
 TEST_CASE("docs/library.md has a row for each field of Options and Result") {

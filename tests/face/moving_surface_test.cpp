@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include <Eigen/Geometry>
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 #include <tetmend/improve.h>

@@ -160,6 +160,83 @@ TEST_CASE("a measure of the program is known by its name to options, scripts, re
         std::string::npos);
 }
 
+namespace {
+
+/// Each tet of the mesh after n events has the quality that the run had for it, bit for bit.
+void check_qualities_at(const tetmend::Trace& trace, std::uint64_t n) {
+  CAPTURE(n);
+  const Mesh then = trace.mesh_at(n);
+  const std::vector<float> qualities = trace.quality_at(n);
+  REQUIRE(qualities.size() == then.tet_count());
+  const Standard standard = Standard::of(own_measure());
+  std::size_t others = 0;
+  for (std::size_t t = 0; t < qualities.size(); ++t) {
+    std::array<Point, 4> p;
+    for (std::size_t i = 0; i < 4; ++i) p[i] = Point(then.points()[then.tets()[t][i]].data());
+    others += qualities[t] == static_cast<float>(standard.quality(p[0], p[1], p[2], p[3])) ? 0 : 1;
+  }
+  CHECK(others == 0);
+}
+
+}  // namespace
+
+TEST_CASE("a trace has the quality of each tet by a measure of the program, at every moment") {
+  const tetmend::test::TempFolder folder;
+  TetMesh mesh(ball_mesh());
+  mesh.set_standard(Standard::of(own_measure()));
+  const std::filesystem::path file = folder / "passes.trace";
+  {
+    Run run(mesh, {.trace = file});
+    run.local_reconnection();
+    run.smooth();
+    CHECK_FALSE(std::filesystem::exists(file));
+    run.finish_trace();
+    run.polish();  // is not in it
+  }
+  const tetmend::Trace trace(file);
+  CHECK(trace.measure() == "flatness");
+  CHECK(trace.pass_count() == 2);
+  REQUIRE(trace.event_count() > 1000);
+  for (std::uint64_t n = 0; n <= trace.event_count(); n += trace.event_count() / 29) {
+    check_qualities_at(trace, n);
+  }
+  check_qualities_at(trace, trace.event_count());
+}
+
+TEST_CASE("a measure that a schedule changes to is in the trace from then on") {
+  const tetmend::test::TempFolder folder;
+  Operators own;
+  own.add_measure(own_measure());
+  Mesh mesh = ball_mesh();
+  const std::filesystem::path file = folder / "run.trace";
+  tetmend::improve(mesh, {.script = "smooth{} judge_by{measure = \"flatness\"} smooth{}",
+                          .operators = &own,
+                          .trace = file});
+  const tetmend::Trace trace(file);
+  CHECK(trace.measure() == "sine_and_length");
+  REQUIRE(trace.pass_count() == 2);
+  const std::uint64_t changed = trace.pass(1).events.begin;
+  check_qualities_at(trace, changed);
+  check_qualities_at(trace, (changed + trace.event_count()) / 2);
+  check_qualities_at(trace, trace.event_count());
+  const TetMesh before(trace.mesh_at(changed - 1));  // by the angles
+  std::vector<float> angles;
+  for (const TetHandle t : before.tets()) angles.push_back(before.quality(t));
+  CHECK(trace.quality_at(changed - 1) == angles);
+}
+
+TEST_CASE("a trace of passes ends where the program itself changes the mesh") {
+  const tetmend::test::TempFolder folder;
+  TetMesh mesh(ball_mesh());
+  Run run(mesh, {.trace = folder / "passes.trace"});
+  run.smooth();
+  attempt(mesh, "smoothing", VertexHandle(0));
+  CHECK(message_of([&] { run.smooth(); }).find("something else than passes") != std::string::npos);
+  run.finish_trace();
+  run.smooth();
+  CHECK(tetmend::Trace(folder / "passes.trace").pass_count() == 1);
+}
+
 TEST_CASE("the result by a measure of the program is the same for every number of threads") {
   std::vector<std::vector<std::array<double, 3>>> points;
   for (const int threads : {1, 3}) {

@@ -10,6 +10,7 @@
 #include "kernel/shell.h"
 #include "kernel/star.h"
 #include "kernel/transaction.h"
+#include "kernel/workspace.h"
 #include "tests/support/zoo.h"
 
 using namespace tetmend;

@@ -12,6 +12,7 @@
 #include "kernel/shell.h"
 #include "kernel/star.h"
 #include "kernel/transaction.h"
+#include "kernel/workspace.h"
 #include "tests/support/zoo.h"
 
 using namespace tetmend;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <Eigen/Eigenvalues>
+#include <Eigen/LU>
 #include <doctest/doctest.h>
 
 #include "kernel/chunks.h"

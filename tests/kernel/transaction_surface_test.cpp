@@ -15,6 +15,7 @@
 #include "kernel/star.h"
 #include "kernel/surface_shell.h"
 #include "kernel/transaction.h"
+#include "kernel/workspace.h"
 #include "tests/support/zoo.h"
 
 using namespace tetmend;

@@ -15,6 +15,7 @@
 #include "kernel/shell.h"
 #include "kernel/star.h"
 #include "kernel/surface_fingerprint.h"
+#include "kernel/workspace.h"
 #include "tests/support/costly.h"
 #include "tests/support/zoo.h"
 

@@ -11,6 +11,7 @@
 #include "contract/zoo.h"
 #include "kernel/star.h"
 #include "kernel/transaction.h"
+#include "kernel/workspace.h"
 
 using namespace tetmend;
 using namespace tetmend::contract;

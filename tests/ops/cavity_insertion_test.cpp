@@ -5,6 +5,7 @@
 
 #include <doctest/doctest.h>
 
+#include "kernel/workspace.h"
 #include "tests/support/lone_worker.h"
 #include "tests/support/octahedron.h"
 

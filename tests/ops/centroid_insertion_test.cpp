@@ -3,6 +3,7 @@
 // not.
 #include <doctest/doctest.h>
 
+#include "kernel/workspace.h"
 #include "tests/support/lone_worker.h"
 #include "tests/support/octahedron.h"
 

@@ -6,6 +6,7 @@
 
 #include <doctest/doctest.h>
 
+#include "kernel/workspace.h"
 #include "ops/registry.h"
 #include "tests/support/zoo.h"
 #include "trace/text_trace.h"

@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include "kernel/star.h"
+#include "kernel/workspace.h"
 #include "ops/vertex_ball.h"
 #include "tests/support/hub.h"
 #include "tests/support/lone_worker.h"

@@ -19,6 +19,7 @@
 #include "kernel/integrity.h"
 #include "kernel/shell.h"
 #include "kernel/star.h"
+#include "kernel/workspace.h"
 #include "ops/registry.h"
 #include "tests/support/lone_worker.h"
 #include "tests/support/zoo.h"

@@ -2,6 +2,7 @@
 // Small polyhedron reconnection: what only it improves, and what it leaves alone.
 #include <doctest/doctest.h>
 
+#include "kernel/workspace.h"
 #include "tests/support/lone_worker.h"
 #include "tests/support/octahedron.h"
 

@@ -11,6 +11,7 @@
 #include <doctest/doctest.h>
 
 #include "kernel/star.h"
+#include "kernel/workspace.h"
 #include "tests/support/lone_worker.h"
 #include "tests/support/octahedron.h"
 

@@ -9,6 +9,7 @@
 
 #include "contract/contract.h"
 #include "contract/moving_surface.h"
+#include "kernel/workspace.h"
 
 using namespace tetmend;
 using namespace tetmend::contract;

@@ -2,6 +2,7 @@
 // Vertex removal: balls that are better without their vertex, and those that are not.
 #include <doctest/doctest.h>
 
+#include "kernel/workspace.h"
 #include "tests/support/lone_worker.h"
 #include "tests/support/octahedron.h"
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include <Eigen/Geometry>
 #include <doctest/doctest.h>
 
 #include "tests/pieces/meshes.h"

@@ -234,8 +234,15 @@ def test_try_only_shows_a_tree_and_leaves_the_mesh_as_it_was(mesh):
     assert call.children[0].operator_name == "shell_transformation"
     shown = call._repr_html_()
     assert shown.count("<code>") == len(call) and "recursive_shell_transformation(" in shown
+    assert shown.count("<svg") == 2  # ring and tree, as figures have them
+    assert state(mesh) == before
+    with mesh.edit():
+        assert call._repr_html_().count("<svg") == 0
+    assert call._repr_html_().count("<svg") == 2
     done = next(each for each in calls if each.accepted)
     assert mesh.attempt(done.operator_name, done.target, max_level=5).accepted and state(mesh) != before
+    assert call._repr_html_().count("<svg") == 0  # the mesh is another one
+    assert mesh.try_only("smoothing", 0)._repr_html_().startswith("<")
 
 
 def test_schedules_and_scripts_work_on_the_mesh_with_its_own_operators(mesh, materials):
@@ -254,6 +261,13 @@ def test_schedules_and_scripts_work_on_the_mesh_with_its_own_operators(mesh, mat
     assert state(other) == state(by_two)
     with pytest.raises(tetmend.Error, match="script:1"):
         mesh.schedule("nothing{}")
+    by_pass, by_word = tetmend.TetMesh(materials), tetmend.TetMesh(materials)
+    done = by_pass.local_reconnection(edges=("recursive_shell_transformation", {"max_level": 2, "most_edges": 1})), by_pass.smooth(on={"below": 0.5})
+    assert list(done) == by_word.schedule(
+        "local_reconnection{edges = {'recursive_shell_transformation', max_level = 2, most_edges = 1}} smooth{on = {below = 0.5}}")
+    assert state(by_pass) == state(by_word)
+    with pytest.raises(tetmend.Error, match="edge"):
+        by_pass.local_reconnection(edge=1)
     points = mesh.points
     with pytest.raises(BufferError):
         mesh.schedule("smooth{}")

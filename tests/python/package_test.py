@@ -561,9 +561,13 @@ def test_a_trace_tells_what_the_command_line_tells(tmp_path, materials, command_
     assert [each["name"] for each in trace.passes()] == [each.name for each in result.passes]
     assert len(trace.mesh_at(0).tets) == len(materials.tets)
     assert len(trace.mesh_at(trace.event_count).tets) == len(result.tets)
+    assert trace.measure == "sine_and_length"
+    for n in (0, trace.event_count // 2, trace.event_count):
+        qualities = trace.quality_at(n)
+        assert qualities.dtype == np.float32 and np.allclose(qualities, tetmend.TetMesh(trace.mesh_at(n)).quality())
     with pytest.raises(ValueError, match="there is no call"):
         trace.call(trace.call_count)
-    for call in (trace.call, trace.mesh_at, trace.tree, trace.dot, lambda n: next(trace.events(n))):
+    for call in (trace.call, trace.mesh_at, trace.quality_at, trace.tree, trace.dot, lambda n: next(trace.events(n))):
         with pytest.raises(ValueError, match="is -1, but numbers begin with 0"):
             call(-1)
     with pytest.raises(ValueError, match=f"but the trace has {trace.event_count} events"):

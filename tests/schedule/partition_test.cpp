@@ -8,6 +8,7 @@
 #include <doctest/doctest.h>
 
 #include "kernel/transaction.h"
+#include "kernel/workspace.h"
 #include "tests/support/threads.h"
 #include "tests/support/zoo.h"
 

@@ -11,6 +11,7 @@
 
 #include "kernel/integrity.h"
 #include "kernel/surface_fingerprint.h"
+#include "kernel/workspace.h"
 #include "schedule/passes.h"
 #include "schedule/schedule.h"
 #include "tests/support/threads.h"

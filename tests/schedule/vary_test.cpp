@@ -14,6 +14,7 @@
 #include "kernel/integrity.h"
 #include "kernel/star.h"
 #include "kernel/surface_fingerprint.h"
+#include "kernel/workspace.h"
 #include "schedule/neighbourhood.h"
 #include "tests/support/zoo.h"
 

@@ -15,6 +15,7 @@
 #include <utility>
 #include <vector>
 
+#include <Eigen/Geometry>
 #include <doctest/doctest.h>
 
 #include "kernel/geometry.h"

@@ -14,6 +14,7 @@
 
 #include "kernel/integrity.h"
 #include "kernel/shell.h"
+#include "kernel/workspace.h"
 #include "ops/registry.h"
 #include "tests/support/zoo.h"
 

@@ -79,6 +79,7 @@ struct Hostile {
 
 constexpr auto kReplace = EventKind::replace_cavity;
 constexpr auto kAtSurface = static_cast<EventKind>(13);
+constexpr std::uint64_t kNoted = 15;
 
 const std::vector<Hostile> kHostileEvents = {
     {"a tet of vertex 2147483392, which is none",
@@ -192,7 +193,24 @@ const std::vector<Hostile> kHostileEvents = {
      [](auto& e) { e.kind(EventKind::visit_ends).put(std::numeric_limits<std::uint64_t>::max()); }},
     {"its goal or standard is none",
      [](auto& e) { e.kind(EventKind::standard_changes).put(0).point(-1, 0, 0).put(0); }},
-    {"15 is no kind of event", [](auto& e) { e.kind(static_cast<EventKind>(15)); }},
+    {"16 is no kind of event", [](auto& e) { e.kind(static_cast<EventKind>(16)); }},
+    {"15 is no kind of event",
+     [](auto& e) { e.put(kNoted).put(0).kind(static_cast<EventKind>(15)); }},
+    {"qualities, and not of the tets of their event",
+     [](auto& e) {
+       e.put(kNoted).put(6).point(0, 0, 0).kind(kReplace).put(1).put(1).steps({0, 0, 1, 2, 3});
+     }},
+    {"qualities, and not of the tets of their event",
+     [](auto& e) { e.put(kNoted).put(6).point(0, 0, 0).kind(EventKind::candidate_found); }},
+    {"a quality is no finite number",
+     [](auto& e) { e.put(kNoted).put(6).point(0, std::nan(""), 0).kind(kReplace); }},
+    {"and tets are judged by none",
+     [](auto& e) {
+       e.put(kNoted).put(1).put(0).put(0).put(0).put(0);  // 0 in four bytes
+       e.kind(kReplace).put(1).put(1).steps({0, 0, 1, 2, 3});
+     }},
+    {"counts more than its bytes can hold",
+     [](auto& e) { e.put(kNoted).put(1u << 30).kind(kReplace); }},
     {"a cavity with more or fewer labels than tets",
      [](auto& e) {
        e.kind(kAtSurface).put(0).put(1).put(1).steps({0, 0, 1, 2, 3});
@@ -285,6 +303,20 @@ TEST_CASE("a place that the scale takes out of the doubles is refused, in a mesh
                                      event.chunk(), end_frame(1)});
     CHECK((complaint(folder / "forged").find(reason) != std::string::npos) == (x > 1e100));
   }
+}
+
+TEST_CASE("qualities by a measure of a program are refused unless there is one for each tet") {
+  const TempFolder folder;
+  TetMesh mesh(two_tets());
+  mesh.set_standard(Standard::of({"flatness", 1, [](auto&&...) { return 0.5; }}));
+  TraceRecorder(folder / "sound", mesh, {}).finish();
+  std::vector<FrameContent> frames = frames_of(folder / "sound");
+  CHECK(TraceFile(folder / "sound").initial_mesh().quality(TetHandle(1)) == 0.5F);
+  FrameContent& last = frames[1];  // ends with 2, and two numbers of four bytes
+  last.resize(last.size() - 4);
+  last[last.size() - 5] = std::byte{1};
+  write_frames(folder / "forged", frames);
+  CHECK(complaint(folder / "forged").find("1 qualities of 2 tets") != std::string::npos);
 }
 
 TEST_CASE("chunks and ends that count wrong are refused") {

@@ -13,6 +13,7 @@
 #include <nlohmann/json.hpp>
 
 #include "kernel/transaction.h"
+#include "kernel/workspace.h"
 #include "tests/support/example_traces.h"
 #include "trace/replay.h"
 

@@ -204,10 +204,13 @@ class Teller {
     row("region", fmt::format("{}", mesh_.label(t)));
     list("vertices", v);
     const bool is_bad = mesh_.quality(t) < kBadThreshold;
-    row("quality", fmt::format("{:.4f}{}", mesh_.quality(t),
-                               !is_bad                 ? ""
-                               : misses_goal(mesh_, t) ? "  (misses the goal)"
-                                                       : "  (a needle)"));
+    const Standard& standard = mesh_.standard();
+    row(standard.is_own() ? fmt::format("quality by {}", standard.measure_name()) : "quality",
+        fmt::format("{:.4f}{}", mesh_.quality(t),
+                    !is_bad                 ? ""
+                    : standard.is_own()     ? "  (bad)"
+                    : misses_goal(mesh_, t) ? "  (misses the goal)"
+                                            : "  (a needle)"));
     for (const QualityMeasure& m : quality_measures()) {
       row(std::string(m.name), fmt::format("{:.4f}", m.evaluate(p[0], p[1], p[2], p[3])));
     }

@@ -2,6 +2,7 @@
 // Colours, regions, and what else is drawn.
 #include <algorithm>
 #include <array>
+#include <string>
 
 #include <fmt/format.h>
 #include <imgui.h>
@@ -123,9 +124,13 @@ void draw_display_panel(Session& session) {
   choose_goal(session.document);
   ImGui::Checkbox("bad tets in red", &scene.bad);
   if (ImGui::IsItemHovered()) {
-    const Goal goal = session.document.mesh().standard().goal();
-    ImGui::SetTooltip("misses the goal: an angle below %g° or above %g°", goal.min_angle,
-                      goal.max_angle);
+    const Standard& standard = session.document.mesh().standard();
+    if (standard.is_own()) {
+      ImGui::SetTooltip("a quality below 1 by %s", std::string(standard.measure_name()).c_str());
+    } else {
+      ImGui::SetTooltip("misses the goal: an angle below %g° or above %g°",
+                        standard.goal().min_angle, standard.goal().max_angle);
+    }
   }
   ImGui::SameLine();
   ImGui::BeginDisabled(!scene.bad);

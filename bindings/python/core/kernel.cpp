@@ -17,6 +17,7 @@
 
 #include "bindings/python/core/arrays.h"
 #include "bindings/python/core/mesh.h"
+#include "explain/call_page.h"
 
 namespace tetmend::python {
 
@@ -126,8 +127,12 @@ class KernelMesh {
     return *scopes_[depth - 1];
   }
 
+  bool has_open_edit() const { return !scopes_.empty(); }
+  bool may_change() const { return !has_open_edit() && *views_ == 0; }
+
   kernel::TetMesh mesh;
   kernel::Operators operators;
+  std::size_t changes = 0;  ///< raised by whatever may have changed the mesh for good
 
  private:
   std::vector<std::unique_ptr<Transaction>> scopes_;
@@ -266,10 +271,22 @@ py::tuple attempt(KernelMesh& self, const std::string& name, const Numbers& targ
     return to_tuple(call);
   }
   if (self.operators.find(name) == nullptr) {
-    return to_tuple(kernel::attempt_at(self.mesh, name, *at, settings, keeps));
+    const Call call = kernel::attempt_at(self.mesh, name, *at, settings, keeps);
+    self.changes += keeps && call.accepted() ? 1 : 0;
+    return to_tuple(call);
   }
+  if (keeps) ++self.changes;
   if (!settings.empty()) throw Error("operator '" + name + "' has no parameters");
   return to_tuple(kernel::attempt_at(self.mesh, self.operators, name, *at, keeps));
+}
+
+/// Ring and tree of what the attempt would do now, as pictures of SVG; none of an operator of the
+/// program, while an edit is open or an array of the mesh's memory in use.
+std::vector<std::string> drawings(KernelMesh& self, const std::string& name, const Numbers& target,
+                                  const kernel::ParameterSettings& settings) {
+  const std::optional<Target> at = target_of(self, target);
+  if (!at || !self.may_change() || self.operators.find(name) != nullptr) return {};
+  return explain::drawings_of_call(kernel::trace_of_attempt(self.mesh, name, *at, settings), 0);
 }
 
 std::vector<TetHandle> tets_of(const KernelMesh& self, const Numbers& numbers) {
@@ -374,6 +391,7 @@ void add_operator(KernelMesh& self, const std::string& name, const std::string& 
 py::list schedule(KernelMesh& self, const std::string& name_or_script,
                   const std::vector<std::pair<std::string, std::string>>& settings, int threads) {
   self.check_no_view();
+  ++self.changes;
   const bool has_own = !self.operators.all().empty();
   kernel::Run run(self.mesh,
                   {.threads = threads, .operators = has_own ? &self.operators : nullptr});
@@ -437,7 +455,11 @@ void add_edit(py::module_& module) {
   using Self = PythonEdit;
   py::class_<Self>(module, "Edit")
       .def("end", [](Self& self) { self.mesh.end(self.depth - 1); })
-      .def("keep", [](Self& self) { self.mesh.scope(self.depth).keep(); })
+      .def("keep",
+           [](Self& self) {
+             self.mesh.scope(self.depth).keep();
+             ++self.mesh.changes;
+           })
       .def("undo", [](Self& self) { self.mesh.scope(self.depth).undo(); })
       .def("move",
            [](Self& self, std::uint32_t v, const std::array<double, 3>& point) {
@@ -514,8 +536,16 @@ void add_walks(py::class_<KernelMesh>& made) {
            [](const Self& self, std::uint32_t v) { return self.mesh.is_boundary(self.vertex(v)); })
       .def("is_fixed",
            [](const Self& self, std::uint32_t v) { return self.mesh.is_fixed(self.vertex(v)); })
-      .def("lock", [](Self& self, std::uint32_t v) { self.mesh.lock(self.vertex(v)); })
-      .def("unlock", [](Self& self, std::uint32_t v) { self.mesh.unlock(self.vertex(v)); })
+      .def("lock",
+           [](Self& self, std::uint32_t v) {
+             self.mesh.lock(self.vertex(v));
+             ++self.changes;
+           })
+      .def("unlock",
+           [](Self& self, std::uint32_t v) {
+             self.mesh.unlock(self.vertex(v));
+             ++self.changes;
+           })
       .def("edges", &edges_of)
       .def("faces", [](const Self& self) { return faces_of(self, self.mesh.faces()); })
       .def("boundary", [](const Self& self) { return faces_of(self, self.mesh.boundary()); })
@@ -555,6 +585,7 @@ void add_kernel(py::module_& module) {
       .def("collect_garbage",
            [](KernelMesh& self) {
              self.check_no_view();
+             ++self.changes;
              kernel::Renumbering went = self.mesh.collect_garbage();
              return py::make_tuple(to_array(std::move(went.vertices)),
                                    to_array(std::move(went.tets)));
@@ -566,6 +597,9 @@ void add_kernel(py::module_& module) {
              return PythonEdit{self, mesh, mesh.begin()};
            })
       .def("attempt", &attempt)
+      .def("drawings", &drawings)
+      .def("has_open_edit", &KernelMesh::has_open_edit)
+      .def_readonly("changes", &KernelMesh::changes)
       .def("schedule", &schedule)
       .def("add_operator", &add_operator);
   add_walks(made);

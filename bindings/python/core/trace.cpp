@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
@@ -111,6 +112,7 @@ void add_trace(py::module_& module) {
       .def_property_readonly("program", &Trace::program)
       .def_property_readonly("input", &Trace::input)
       .def_property_readonly("schedule", &Trace::schedule)
+      .def_property_readonly("measure", &Trace::measure)
       .def_property_readonly("settings", &Trace::settings)
       .def_property_readonly("filter", &Trace::filter)
       .def_property_readonly("damage", &Trace::damage)
@@ -128,6 +130,13 @@ void add_trace(py::module_& module) {
              std::shared_ptr<Mesh> mesh;
              run_detached([&] { mesh = std::make_shared<Mesh>(trace.mesh_at(n)); });
              return mesh;
+           })
+      .def("quality_at",
+           [](const Trace& trace, std::uint64_t n) {
+             std::vector<float> qualities;
+             run_detached([&] { qualities = trace.quality_at(n); });
+             return py::array_t<float>(static_cast<py::ssize_t>(qualities.size()),
+                                       qualities.data());
            })
       .def("ledger", &ledger_of)
       .def("calls_of", &calls_of)

@@ -5,9 +5,10 @@ from __future__ import annotations
 
 import html
 import inspect
+import json
 import weakref
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from types import TracebackType
 from typing import Any, NamedTuple, TypeVar, overload
 
@@ -47,7 +48,11 @@ _COLOURS = {"accepted": "#2a7a3b", "no improvement": "#b36b00", "not applicable"
 
 @dataclass(frozen=True)
 class Call:
-    """An attempt of an operator, with those that it made itself. A notebook shows it as a tree."""
+    """An attempt of an operator, with those that it made itself.
+
+    A notebook shows it as a tree. Above it are the ring and the tree as figures of papers have them, until the mesh is changed: not of an attempt
+    that stays, so ask try_only() before. Operators in Python have the tree alone.
+    """
 
     operator_name: str
     target: tuple[int, ...]  #: 1 vertex, 2 of an edge, 3 of a face, 4 of a tet
@@ -57,6 +62,7 @@ class Call:
     worst_after: float = 0
     edits: int = 0
     children: tuple[Call, ...] = field(default=(), repr=False)
+    _draw: Callable[[], list[str]] | None = field(default=None, repr=False, compare=False)
 
     @property
     def accepted(self) -> bool:
@@ -98,7 +104,8 @@ class Call:
             shown = " open" if depth < 2 else ""
             return f"<li><details{shown}><summary>{line} ({len(call):,} calls)</summary><ul>{inner}</ul></details></li>"
 
-        return f'<ul style="list-style:none">{tree(self, 0)}</ul>'
+        drawings = "".join(f"<div>{svg}</div>" for svg in self._draw()) if self._draw else ""
+        return f'{drawings}<ul style="list-style:none">{tree(self, 0)}</ul>'
 
 
 def _to_call(made: tuple[Any, ...]) -> Call:
@@ -416,7 +423,21 @@ class TetMesh:
 
     def _attempt(self, operator: str, target: int | Sequence[int], settings: dict[str, float], keeps: bool) -> Call:
         vertices = [target] if isinstance(target, (int, np.integer)) else list(target)
-        return _to_call(self._core.attempt(operator, vertices, list(settings.items()), keeps))
+        call = _to_call(self._core.attempt(operator, vertices, list(settings.items()), keeps))
+        if (keeps and call.accepted) or self._core.has_open_edit():
+            return call
+        known, changes = weakref.ref(self), self._core.changes
+
+        def draw() -> list[str]:
+            mesh = known()
+            if mesh is None or mesh._core.changes != changes:
+                return []
+            try:
+                return mesh._core.drawings(operator, vertices, list(settings.items()))
+            except _core.Error:  # there was nothing to attempt
+                return []
+
+        return replace(call, _draw=draw)
 
     @overload
     def operator(self, target: str, *, judge: Callable[..., Any] | None = None) -> Callable[[Function], Function]: ...
@@ -481,6 +502,37 @@ class TetMesh:
         texts = [(name, str(value).lower() if isinstance(value, bool) else str(value)) for name, value in settings.items()]
         return [PassDone(*each) for each in self._core.schedule(name_or_script, texts, threads)]
 
+    def _pass(self, name: str, threads: int, options: dict[str, Any]) -> PassDone:
+        done = self.schedule(f"{name}{_lua(options)}", threads=threads)
+        return done[0] if done else PassDone(name, 0, 0, int((self.quality() < 1).sum()))
+
+    def local_reconnection(self, *, threads: int = 1, **options: Any) -> PassDone:
+        """A pass, with the options of its word in schedules: docs/schedules.md. The next five are likewise.
+
+        An operator and its parameters are a tuple: `edges=("recursive_shell_transformation", {"max_level": 2})`.
+        """
+        return self._pass("local_reconnection", threads, options)
+
+    def smooth(self, *, threads: int = 1, **options: Any) -> PassDone:
+        """A pass, see local_reconnection()."""
+        return self._pass("smooth", threads, options)
+
+    def suppress_points(self, *, threads: int = 1, **options: Any) -> PassDone:
+        """A pass, see local_reconnection()."""
+        return self._pass("suppress_points", threads, options)
+
+    def insert_points(self, *, threads: int = 1, **options: Any) -> PassDone:
+        """A pass, see local_reconnection()."""
+        return self._pass("insert_points", threads, options)
+
+    def polish(self, *, threads: int = 1, **options: Any) -> PassDone:
+        """A pass, see local_reconnection()."""
+        return self._pass("polish", threads, options)
+
+    def untangle(self, *, threads: int = 1, **options: Any) -> PassDone:
+        """A pass, see local_reconnection()."""
+        return self._pass("untangle", threads, options)
+
     def collect_garbage(self) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
         """Gives vertices and tets new numbers without gaps. Returns those of all old ones, -1 for what is gone."""
         return self._core.collect_garbage()
@@ -488,6 +540,19 @@ class TetMesh:
     def check(self) -> int:
         """Contradictions in the mesh: 0, or tetmend has a bug."""
         return self._core.check()
+
+
+def _lua(value: Any) -> str:
+    if isinstance(value, bool):
+        return str(value).lower()
+    if isinstance(value, dict):
+        return "{" + ", ".join(f"{key} = {_lua(each)}" for key, each in value.items()) + "}"
+    if isinstance(value, (list, tuple)):
+        parts = [_lua(each) for each in value]
+        if parts and isinstance(value[0], str) and isinstance(value[-1], dict):  # a name and its parameters are one table
+            parts[-1] = parts[-1][1:-1]
+        return "{" + ", ".join(parts) + "}"
+    return json.dumps(value) if isinstance(value, str) else repr(float(value)) if isinstance(value, float) else str(value)
 
 
 def _target_of(operator: str) -> str:

@@ -10,6 +10,9 @@ import os
 from collections.abc import Iterator
 from typing import Any
 
+import numpy as np
+from numpy.typing import NDArray
+
 from tetmend import _core
 from tetmend._mesh import Mesh, PathLike, naming_missing_files
 
@@ -99,6 +102,11 @@ class Trace:
         return self._core.schedule
 
     @property
+    def measure(self) -> str:
+        """What tets were judged by when the run began: "sine_and_length", "sine", or the name of a program's measure."""
+        return self._core.measure
+
+    @property
     def settings(self) -> dict[str, str]:
         """Parameters of the schedule."""
         return dict(self._core.settings)
@@ -165,6 +173,13 @@ class Trace:
     def mesh_at(self, n: int) -> Mesh:
         """The mesh after the first n events. Takes a microsecond for each of them."""
         return Mesh._of(self._core.mesh_at(self._number("n", n)))
+
+    def quality_at(self, n: int) -> NDArray[np.float32]:
+        """Of each tet of mesh_at(n), in its order, the quality that the run had for it: bad below 1, inverted below 0.
+
+        Also by a measure of a program, see `measure`. Takes as long as mesh_at().
+        """
+        return self._core.quality_at(self._number("n", n))
 
     def ledger(self) -> list[dict[str, Any]]:
         """The whole of the run: a dict for each operator, level of recursion and way to end.

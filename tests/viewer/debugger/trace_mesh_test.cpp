@@ -308,3 +308,29 @@ TEST_CASE("borders of regions and named edges are followed") {
   Kept kept(debugger, look, kMostBadTets);
   walk(debugger, kept, 3, 300);
 }
+
+TEST_CASE("the colours of a trace are by the measure that the run judged tets by") {
+  const test::TempFolder folder;
+  TetMesh mesh(test::delaunay_ball(120, 3));
+  mesh.set_standard(Standard::of({"shape", 0.5, volume_length}));
+  test::record(mesh, folder / "ball.trace");
+  Debugger debugger(folder / "ball.trace");
+  const Standard standard = Standard::of({"shape", 0.5, volume_length});
+  const std::uint64_t end = debugger.file().event_count();
+  for (const std::uint64_t position : {std::uint64_t{0}, end / 3, end / 2, end}) {
+    debugger.seek(position);
+    const TetMesh then = debugger.mesh();
+    CHECK(then.standard().measure_name() == "shape");
+    std::size_t others = 0;
+    for (std::uint32_t i = 0; i < then.tet_slots(); ++i) {
+      const TetHandle t(i);
+      if (then.is_deleted(t)) continue;
+      const TetVertices& v = then.vertices(t);
+      const double quality =
+          standard.quality(then.point(v[0]), then.point(v[1]), then.point(v[2]), then.point(v[3]));
+      const float shown = evaluate_tet(then, find_tet_value("quality"), t);
+      others += shown == static_cast<float>(quality) ? 0 : 1;
+    }
+    CHECK(others == 0);
+  }
+}
