@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include <Eigen/Geometry>
 #include <doctest/doctest.h>
 
 #include "envelope/envelope.h"

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include <Eigen/Geometry>
 #include <doctest/doctest.h>
 
 #include "kernel/formats/tet_mesh_io.h"

@@ -9,6 +9,7 @@
 #include <numbers>
 #include <vector>
 
+#include <Eigen/LU>
 #include <doctest/doctest.h>
 
 #include "kernel/chunks.h"
