@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include "kernel/exact_orientation.h"
 #include "kernel/formats/element_checks.h"
 #include "kernel/formats/element_orders.h"
 #include "kernel/formats/element_rows.h"
@@ -297,6 +298,11 @@ class Reader {
     row.kind = element_kind(side[3] == kNoCorner ? vtk_triangle : vtk_quad);
     const auto vertices = vertices_at(mesh_, of);
     for (std::size_t k = 0; k < row.kind->width; ++k) row.vertices[k] = vertices[side[k]];
+    const auto point = [&](std::size_t k) { return mesh_.points[vertices[k]]; };
+    // Of a tet that is turned over, too, the normal points outwards: so the side is of it again.
+    const bool is_tet = of.of().dimension == 3 && of.of().corners == 4;
+    if (is_tet && is_turned_over(point(0), point(1), point(2), point(3)))
+      std::swap(row.vertices[1], row.vertices[2]);
     const std::size_t before = places_.size();
     set.elements.push_back(faces_.add(row, sorter_, mesh_, places_));
     if (places_.size() > before) homes_.push_back(static_cast<std::uint32_t>(blocks_.size()));

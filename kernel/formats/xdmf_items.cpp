@@ -84,8 +84,16 @@ DataArray::Values XdmfItems::values(const pugi::xml_node& item) {
   const std::size_t colon = text.find(":/");
   if (colon == std::string::npos || colon + 2 >= text.size())
     fail(item, fmt::format("{} names no table: expected FILE:/PATH", in_quotes(text)));
-  open(text.substr(0, colon));
+  open(file_in(item, text.substr(0, colon)));
   return tables_->values(text.substr(colon + 2));
+}
+
+std::string XdmfItems::file_in(const pugi::xml_node& item, std::string name) const {
+  const bool has_control = std::any_of(name.begin(), name.end(), [](char c) {
+    return std::iscntrl(static_cast<unsigned char>(c)) != 0;
+  });
+  if (has_control) fail(item, fmt::format("{} is no name of a file", in_quotes(name)));
+  return name;
 }
 
 void XdmfItems::open(const std::string& name) {
@@ -136,7 +144,7 @@ DataArray::Values XdmfItems::binary_values(const pugi::xml_node& item) const {
   const bool is_little =
       endian == "little" || (endian != "big" && std::endian::native == std::endian::little);
   const bool swap = is_little != (std::endian::native == std::endian::little);
-  const InputFile file(folder_ / trimmed_text(item));
+  const InputFile file(folder_ / file_in(item, trimmed_text(item)));
   const auto first = static_cast<std::size_t>(item.attribute("Seek").as_ullong(0));
   std::size_t room = first > file.size() ? 0 : (file.size() - first) / bytes_each;
   std::size_t count = 1;

@@ -37,6 +37,8 @@ class XdmfItems {
   std::vector<double> reals(const pugi::xml_node& item);
 
  private:
+  /// @throws Error for a name with a line break or the like
+  std::string file_in(const pugi::xml_node& item, std::string name) const;
   void open(const std::string& name);
   DataArray::Values inline_values(const pugi::xml_node& item) const;
   DataArray::Values binary_values(const pugi::xml_node& item) const;

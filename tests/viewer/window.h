@@ -158,6 +158,7 @@ class Viewer {
     for (int i = 0; i < 60 && !std::filesystem::exists("report.json"); ++i) {
       type("key d sleep 0.2");  // a question takes keys from the picture on that it is in
     }
+    INFO(read_text("err"));
     wait_for("report.json");
     CHECK(program_->wait() == 0);
     return nlohmann::json::parse(read_text("report.json"));

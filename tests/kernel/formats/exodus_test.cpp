@@ -123,6 +123,18 @@ TEST_CASE("what a file of Exodus holds survives writing, and writing again gives
   CHECK(read_text(folder / "b.e") == read_text(folder / "c.e"));
 }
 
+TEST_CASE("a side of a tet that is turned over is a side of the same tet after each writing") {
+  const TempFolder folder;
+  SmallExodus small;
+  small.coordinates[13] = -0.5;  // both tets lie below their common face
+  small.side_elements = {1};
+  small.sides = {4};
+  small.write(folder / "a.e");
+  write_mesh(folder / "b.e", read_mesh(folder / "a.e"));
+  write_mesh(folder / "c.e", read_mesh(folder / "b.e"));
+  CHECK(read_text(folder / "b.e") == read_text(folder / "c.e"));
+}
+
 TEST_CASE("vectors are three variables of Exodus, and an array again when they are read") {
   const TempFolder folder;
   MeshData mesh = awkward_mesh();

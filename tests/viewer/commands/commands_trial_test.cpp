@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include <algorithm>
-#include <ctime>
 
 #include <doctest/doctest.h>
 
@@ -204,50 +202,6 @@ TEST_CASE("what is kept keeps mid-side nodes and arrays of its file, and is save
     CHECK(out.tet_data[0].name == "number");
     CHECK(s.document.message.text.find("without") == std::string::npos);
   }
-}
-
-namespace {
-
-double processor_seconds() {
-  timespec now{};
-  ::clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
-
-}  // namespace
-
-TEST_CASE(
-    "a trial on a large mesh costs a few copies of it: nothing is packed, built or measured") {
-  TestSession s(test::kuhn_cube(26, 0.3, 1));  // 105,456 tets
-  const auto cost_of = [](const auto& work) {
-    double least = 1e9;
-    for (int i = 0; i < 3; ++i) {
-      const double start = processor_seconds();
-      work();
-      least = std::min(least, processor_seconds() - start);
-    }
-    return least;
-  };
-  const TetVertices v = s.document.mesh().vertices(s.document.worst().front());
-  const json request =
-      json::array({{{"operator", "joint_smoothing"},
-                    {"tet", {v[0].index(), v[1].index(), v[2].index(), v[3].index()}}}});
-  s.run("try_operator", request);
-  s.run("undo");
-  double copies = cost_of([&] {
-    for (int i = 0; i < 10; ++i) {
-      const TetMesh copy = s.document.mesh();
-      CHECK(copy.tet_count() > 100000);
-    }
-  });
-  const double tried = cost_of([&] {
-    s.run("try_operator", request);
-    s.document.scene();
-  });
-  CAPTURE(tried);
-  CAPTURE(copies);
-  CHECK(tried < 1.5 * copies);  // of ten
-  s.run("undo");
 }
 
 TEST_CASE("a trial steps back to the mesh as it was, and on again, tet by tet") {
