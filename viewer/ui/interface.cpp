@@ -29,9 +29,12 @@ namespace {
 constexpr float kFontSize = 16;  // pixels at scale 1
 constexpr const char* kFont = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf";
 
+/// Panels that come up ask for no focus: with a question open that is not drawn yet, the library ends
+/// the program by an assertion.
 constexpr ImGuiWindowFlags kFixed = ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize |
                                     ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoTitleBar |
-                                    ImGuiWindowFlags_NoBringToFrontOnFocus;
+                                    ImGuiWindowFlags_NoBringToFrontOnFocus |
+                                    ImGuiWindowFlags_NoFocusOnAppearing;
 
 ImFont* load_font(float scale) {
   ImFontConfig config;
@@ -299,7 +302,8 @@ void show_opening(const Opening& opening) {
   ImGui::SetNextWindowSize({kWidth * ImGui::GetFontSize(), 0});
   ImGui::SetNextWindowFocus();
   ImGui::Begin("##opening", nullptr,
-               ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoTitleBar);
+               ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoTitleBar |
+                   ImGuiWindowFlags_NoFocusOnAppearing);
   ImGui::TextUnformatted(opening.file().filename().string().c_str());
   ImGui::ProgressBar(static_cast<float>(opening.share()), {-1, 0}, opening.stage().data());
   ImGui::TextDisabled("%.0f s", opening.seconds());
