@@ -3,13 +3,15 @@
 
 What is found lies in build/checked/fuzz/found, and makes the exit status 1; the program
 build/checked/fuzz/fuzz_TARGET, given such a file, repeats it. The corpus grows in
-build/checked/fuzz/corpus from run to run.
+build/checked/fuzz/corpus from run to run. With --seed no run knows of another: the same program
+tries the same inputs in the same order, as far as its seconds go.
 """
 
 import argparse
 import json
 import os
 import re
+import shutil
 import subprocess
 import sys
 from concurrent.futures import ThreadPoolExecutor
@@ -36,16 +38,19 @@ TARGETS = {
 
 
 def parse(arguments):
-    parser = argparse.ArgumentParser(prog="script/fuzz", usage="script/fuzz [TARGET...] [SECONDS] [--jobs N] [--write FILE]",
+    parser = argparse.ArgumentParser(prog="script/fuzz", usage="script/fuzz [TARGET...] [SECONDS] [--jobs N] [--seed N] [--write FILE]",
                                      description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter,
                                      epilog="targets:\n" + "".join(f"  {k:14}{v}\n" for k, v in TARGETS.items()))
     parser.add_argument("words", nargs="*", metavar="TARGET | SECONDS",
                         help="targets (default: all), and the seconds for each (default: 60)")
     parser.add_argument("--jobs", type=int, default=os.cpu_count(), help="targets at the same time (default: all cores)")
+    parser.add_argument("--seed", type=int, help="the same inputs each time, from 1 (default: others each time)")
     documents.add_option(parser)
     options = parser.parse_args(arguments)
     if options.jobs < 1:
         parser.error("--jobs is at least 1")
+    if options.seed is not None and options.seed < 1:
+        parser.error("--seed is at least 1")
     options.seconds = 0
     options.targets = []
     for word in options.words:
@@ -63,8 +68,10 @@ def parse(arguments):
     return options
 
 
-def prepare(target):
-    corpus = BUILD / "fuzz" / "corpus" / target
+def prepare(target, seed):
+    corpus = BUILD / "fuzz" / ("corpus" if seed is None else "seeded") / target
+    if seed is not None and corpus.exists():
+        shutil.rmtree(corpus)
     corpus.mkdir(parents=True, exist_ok=True)
     for number, content in enumerate(seeds.seeds(target, BUILD, SOURCE)):
         (corpus / f"seed-{number}").write_bytes(content)
@@ -73,15 +80,17 @@ def prepare(target):
     return corpus, dictionary
 
 
-def fuzz(target, seconds):
+def fuzz(target, seconds, seed):
     """One run: what it did, as a row."""
-    corpus, dictionary = prepare(target)
+    corpus, dictionary = prepare(target, seed)
     found = BUILD / "fuzz" / "found"
     found.mkdir(exist_ok=True)
     log = BUILD / "fuzz" / f"{target}.log"
     command = [BUILD / "fuzz" / f"fuzz_{target}", corpus, f"-max_total_time={seconds}", "-timeout=60",
                "-rss_limit_mb=3000", "-malloc_limit_mb=2000", "-max_len=16384", "-print_final_stats=1", "-len_control=50", "-print_funcs=0",
                f"-artifact_prefix={found}/{target}-"]
+    if seed is not None:
+        command.append(f"-seed={seed}")
     if dictionary.read_text():
         command.append(f"-dict={dictionary}")
     environment = dict(os.environ, ASAN_OPTIONS="detect_leaks=0:allocator_may_return_null=0",
@@ -151,7 +160,7 @@ def main():
     targets = options.targets or list(TARGETS)
     rows = []
     with ThreadPoolExecutor(options.jobs) as pool:
-        for row in pool.map(lambda target: fuzz(target, options.seconds), targets):
+        for row in pool.map(lambda target: fuzz(target, options.seconds, options.seed), targets):
             rows.append(row)
             print(f"fuzz: {row['target']:13}{row['runs']:10,} inputs {row['edges']:6} edges  "
                   + (f"FOUND {row['reason']}" if row["found"] else "nothing found"), flush=True)

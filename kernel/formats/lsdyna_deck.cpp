@@ -100,11 +100,15 @@ void LsDynaDeck::find_blocks() {
     std::string keyword(trimmed_field(line.substr(1)));
     for (char& c : keyword) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
     if (keyword.starts_with("KEYWORD")) read_options(keyword);
-    block = {keyword.substr(0, keyword.find_first_of(" \t")), begin, at, at,
-             lsdyna_widths(keyword, widths_)};
+    block = {keyword.substr(0, keyword.find_first_of(" \t")), begin, at, at};
   }
   block.end = file_.end();
   blocks_.push_back(block);
+  // Options hold for the whole deck, wherever they stand: nodes are written with one width.
+  for (LsDynaBlock& each : blocks_) {
+    const std::string_view line(each.begin, static_cast<std::size_t>(each.content - each.begin));
+    each.widths = lsdyna_widths(line, widths_);
+  }
   if (blocks_.size() == 1) {
     file_.fail_at_line(file_.begin(), "the file has no keywords: expected *KEYWORD and *NODE");
   }

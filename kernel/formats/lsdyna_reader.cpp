@@ -21,6 +21,8 @@
 namespace tetmend::formats {
 namespace {
 
+constexpr std::string_view kGenerate = "_GENERATE";
+
 class LsDynaReader : LsDynaMesh {
  public:
   LsDynaReader(const InputFile& file, TetPlace* question)
@@ -59,11 +61,8 @@ class LsDynaReader : LsDynaMesh {
     const std::string& keyword = block.keyword;
     if (is_nodes(block)) return place(block, lsdyna_nodes, has_nodes_);
     if (is_solids(block)) return place(block, lsdyna_elements, has_solids_);
-    const bool is_set = starts_with_any(keyword, {"SET_SOLID"}) &&
-                        keyword.find("GENERAL") == std::string::npos &&
-                        keyword.find("ADD") == std::string::npos;
-    if (is_set) return read_solid_set(block);
-    if (is_node_set(keyword)) return read_node_set(block);
+    if (is_list(keyword, "SET_SOLID")) return read_solid_set(block);
+    if (is_list(keyword, "SET_NODE")) return read_node_set(block);
     keep(whole);
     if (keyword.starts_with("INCLUDE")) {
       mesh_.notes.push_back(
@@ -123,14 +122,16 @@ class LsDynaReader : LsDynaMesh {
     return head;
   }
 
-  /// take(first, last) of each member or range.
+  /// take(first, last) of each member or range, whatever its step is.
   template <class Take>
   void each_member(const LsDynaBlock& block, const std::vector<std::string_view>& lines,
                    const Take& take) {
     const bool are_ranges = block.keyword.find("GENERATE") != std::string::npos;
+    const bool have_steps = block.keyword.find("INCREMENT") != std::string::npos;
+    const std::size_t fields_of_one = have_steps ? 3 : are_ranges ? 2 : 1;
     for (const std::string_view line : lines) {
       split(line, now().card, now().card);
-      for (std::size_t i = 0; i < fields_.size(); i += are_ranges ? 2 : 1) {
+      for (std::size_t i = 0; i < fields_.size(); i += fields_of_one) {
         std::int64_t first = 0;
         std::int64_t last = 0;
         if (!nastran_integer(field(i), first) || first <= 0) continue;
@@ -155,13 +156,13 @@ class LsDynaReader : LsDynaMesh {
     place_set(block, std::move(head), lsdyna_set);
   }
 
-  /// A plain list of nodes, or ranges of them.
-  static bool is_node_set(std::string keyword) {
-    for (const std::string_view option : {"_TITLE", "_GENERATE", "_LIST"}) {
+  /// A plain list of members, or ranges of them.
+  static bool is_list(std::string keyword, std::string_view set) {
+    for (const std::string_view option : {"_TITLE", kGenerate, "_LIST"}) {
       const std::size_t at = keyword.find(option);
       if (at != std::string::npos) keyword.erase(at, option.size());
     }
-    return keyword == "SET_NODE";
+    return keyword == set;
   }
 
   /// Where it fills a volume it is written anew; other members stay.
@@ -198,8 +199,9 @@ class LsDynaReader : LsDynaMesh {
     const char* members = head.members.empty() ? block.end : head.members[0].data();
     std::string lines(block.begin, members);
     if (!lines.ends_with('\n')) lines += '\n';
-    if (const std::size_t at = lines.find("_GENERATE"); at < lines.find('\n')) {
-      lines.erase(at, std::string_view("_GENERATE").size());
+    // As in the keyword, but for small letters and the '*'.
+    if (const std::size_t at = block.keyword.find(kGenerate); at != std::string::npos) {
+      lines.erase(lines.find_first_not_of(" \t", 1) + at, kGenerate.size());
     }
     set_pieces_.push_back({piece, mesh_.deck.size(), sets_.size()});
     mesh_.deck.push_back(std::move(lines));

@@ -271,6 +271,38 @@ TEST_CASE("long fields of a deck of LS-DYNA, or of one keyword, are read and wri
   }
 }
 
+TEST_CASE("options of a second *KEYWORD of LS-DYNA hold for the nodes before it") {
+  const TempFolder folder;
+  const std::string text =
+      "*NODE\n1,0,0,0\n2,1,0,0\n3,0,1,0\n4,0,0,1\n*ELEMENT_SOLID\n1,1,1,2,3,4\n"
+      "*KEYWORD LONG=Y\n*SET_NODE\n5\n1,2,3,4\n*END\n";
+  const MeshData mesh = read_deck(folder, text);
+  write_mesh(folder / "b.k", mesh);
+  const MeshData again = read_mesh(folder / "b.k");
+  CHECK(same_mesh(again, mesh));
+  CHECK(again.groups == mesh.groups);
+}
+
+TEST_CASE("ranges of sets of LS-DYNA are read in small letters, and with steps stay as they are") {
+  const TempFolder folder;
+  const std::string mesh_text =
+      "*KEYWORD\n*NODE\n1,0,0,0\n2,1,0,0\n3,0,1,0\n4,0,0,1\n5,1,1,1\n"
+      "*ELEMENT_SOLID\n1,1,1,2,3,4\n2,1,2,3,4,5\n";
+  const MeshData small = read_deck(folder, mesh_text + "* set_node_list_generate\n5\n1,4\n*END\n");
+  REQUIRE(small.groups.size() == 1);
+  write_mesh(folder / "b.k", small);
+  CHECK(read_text(folder / "b.k").find("* set_node_list\n5\n") != std::string::npos);
+  CHECK(read_mesh(folder / "b.k").groups == small.groups);
+  const std::string steps = "*SET_SOLID_GENERATE_INCREMENT\n6\n1,2,1\n";
+  const MeshData stepped =
+      read_deck(folder, mesh_text + steps + "*SET_NODE_LIST_GENERATE_INCREMENT\n7\n2,4,2\n*END\n");
+  CHECK(stepped.groups.empty());
+  CHECK(stepped.required_vertices == std::vector<std::uint32_t>{1, 2, 3});
+  CHECK(stepped.notes.size() == 1);
+  write_mesh(folder / "b.k", stepped);
+  CHECK(read_text(folder / "b.k").find(steps) != std::string::npos);
+}
+
 TEST_CASE("numbers of LS-DYNA that are wider than their fields are written between commas") {
   const TempFolder folder;
   const std::string text =
