@@ -158,7 +158,8 @@ class LsDynaReader : LsDynaMesh {
 
   /// A plain list of members, or ranges of them.
   static bool is_list(std::string keyword, std::string_view set) {
-    for (const std::string_view option : {"_TITLE", kGenerate, "_LIST"}) {
+    for (const std::string_view option :
+         std::initializer_list<std::string_view>{"_TITLE", kGenerate, "_LIST"}) {
       const std::size_t at = keyword.find(option);
       if (at != std::string::npos) keyword.erase(at, option.size());
     }
