@@ -2,6 +2,7 @@
 // Reads keyword files of LS-DYNA: with nodes and solids at hand, all that names them.
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <map>
 #include <optional>
 #include <string>
@@ -59,8 +60,8 @@ class LsDynaReader : LsDynaMesh {
     use(block);
     const std::string_view whole(block.begin, static_cast<std::size_t>(block.end - block.begin));
     const std::string& keyword = block.keyword;
-    if (is_nodes(block)) return place(block, lsdyna_nodes, has_nodes_);
-    if (is_solids(block)) return place(block, lsdyna_elements, has_solids_);
+    if (is_nodes(block)) return place(block, lsdyna_nodes, nodes_at_);
+    if (is_solids(block)) return place(block, lsdyna_elements, solids_at_);
     if (is_list(keyword, "SET_SOLID")) return read_solid_set(block);
     if (is_list(keyword, "SET_NODE")) return read_node_set(block);
     keep(whole);
@@ -85,16 +86,35 @@ class LsDynaReader : LsDynaMesh {
     }
   }
 
-  /// Nodes and solids stand where the first of them stood; comments stay.
-  void place(const LsDynaBlock& block, LsDynaPiece piece, bool& is_there) {
-    std::string comments;
-    for (const char* at = block.content; at != block.end;) {
-      const std::string_view line = next_line(at, block.end);
-      if (line.starts_with('$')) comments += lines_of(line);
+  /// Comment lines between two places of a block, and those behind its last other line.
+  struct Comments {
+    std::string inner;
+    std::string_view trailing;
+  };
+  static Comments comments_of(const char* begin, const char* end) {
+    Comments comments;
+    const char* behind = begin;
+    for (const char* at = begin; at != end;) {
+      if (!is_comment(next_line(at, end))) behind = at;
     }
-    if (is_there) return keep(comments);
-    is_there = true;
-    mesh_.deck.push_back(static_cast<char>(piece) + comments);
+    for (const char* at = begin; at != behind;) {
+      const std::string_view line = next_line(at, behind);
+      if (line.starts_with('$')) comments.inner += lines_of(line);
+    }
+    comments.trailing = {behind, static_cast<std::size_t>(end - behind)};
+    return comments;
+  }
+
+  /// Nodes and solids stand where the first of them stood, with the comments between them in front.
+  /// What is behind them opens the next keyword, as a rule: it stays where it is.
+  void place(const LsDynaBlock& block, LsDynaPiece piece, std::size_t& at) {
+    const Comments comments = comments_of(block.content, block.end);
+    if (at == kNowhere) {
+      at = mesh_.deck.size();
+      mesh_.deck.emplace_back(1, static_cast<char>(piece));
+    }
+    mesh_.deck[at] += comments.inner;
+    keep(comments.trailing);
   }
 
   struct SetHead {
@@ -195,7 +215,7 @@ class LsDynaReader : LsDynaMesh {
                                       set.number, what));
   }
 
-  /// Leaves room for its members in the deck.
+  /// Leaves room for its members in the deck, behind the comments between them.
   void place_set(const LsDynaBlock& block, SetHead head, LsDynaPiece piece) {
     const char* members = head.members.empty() ? block.end : head.members[0].data();
     std::string lines(block.begin, members);
@@ -204,9 +224,11 @@ class LsDynaReader : LsDynaMesh {
     if (const std::size_t at = block.keyword.find(kGenerate); at != std::string::npos) {
       lines.erase(lines.find_first_not_of(" \t", 1) + at, kGenerate.size());
     }
+    const Comments comments = comments_of(members, block.end);
     set_pieces_.push_back({piece, mesh_.deck.size(), sets_.size()});
-    mesh_.deck.push_back(std::move(lines));
+    mesh_.deck.push_back(lines + comments.inner);
     sets_.push_back(std::move(head.set));
+    keep(comments.trailing);
   }
 
   /// Triangles and quadrilaterals that stay in the deck. Of shells with further cards none is read.
@@ -315,6 +337,8 @@ class LsDynaReader : LsDynaMesh {
     }
   }
 
+  static constexpr std::size_t kNowhere = std::numeric_limits<std::size_t>::max();
+
   struct SetPiece {
     LsDynaPiece letter;
     std::size_t piece;  ///< of the deck
@@ -323,8 +347,8 @@ class LsDynaReader : LsDynaMesh {
 
   std::size_t solid_count_;  // behind them faces come
   FacesOnce faces_;
-  bool has_nodes_ = false;
-  bool has_solids_ = false;
+  std::size_t nodes_at_ = kNowhere;  // piece of the deck
+  std::size_t solids_at_ = kNowhere;
   std::vector<ElementSet> sets_;
   std::vector<SetPiece> set_pieces_;
   std::optional<LoosePoints> loose_points_;

@@ -138,18 +138,23 @@ class LsDynaWriter {
     });
   }
 
-  /// First those on one line, then those of ten nodes, which have two.
+  /// First those on one line, then those of ten nodes, which have two. Where there is none, the keyword
+  /// alone: a deck without it is no mesh.
   void write_solids(std::string_view comments) {
-    for (const bool is_second : {false, true}) {
-      bool is_first = true;
+    const auto is_of = [](const ElementList& list, bool has_two) {
+      return is_solid(list) && (list.kind.vtk_type == vtk_tet10) == has_two;
+    };
+    const auto is_there = [&](bool has_two) {
+      const auto& all = lists_.all();
+      return std::any_of(all.begin(), all.end(), [&](const auto& l) { return is_of(l, has_two); });
+    };
+    for (const bool has_two : {false, true}) {
+      if (!is_there(has_two) && (has_two || is_there(true))) continue;
+      out_.put("*ELEMENT_SOLID\n");
+      out_.put(std::exchange(comments, {}));
       for (std::size_t k = 0; k < lists_.all().size(); ++k) {
         const ElementList& list = lists_.all()[k];
-        if (!is_solid(list) || (list.kind.vtk_type == vtk_tet10) != is_second) continue;
-        if (is_first) {
-          out_.put("*ELEMENT_SOLID\n");
-          out_.put(std::exchange(comments, {}));
-        }
-        is_first = false;
+        if (!is_of(list, has_two)) continue;
         put_rows(out_, list.count,
                  [&](std::size_t i, OutputBuffer& buffer) { put_solid(buffer, k, i); });
       }

@@ -303,6 +303,33 @@ TEST_CASE("ranges of sets of LS-DYNA are read in small letters, and with steps s
   CHECK(read_text(folder / "b.k").find(steps) != std::string::npos);
 }
 
+TEST_CASE(
+    "comments of a deck of LS-DYNA stay before the keyword or in the list that they stand at") {
+  const TempFolder folder;
+  const std::string text =
+      "*KEYWORD\n*NODE\n1,0,0,0\n$ second\n2,1,0,0\n3,0,1,0\n$ ---- solids\n*ELEMENT_SOLID\n"
+      "1,1,1,2,3,4\n$ ---- more nodes\n*NODE\n$ fourth\n4,0,0,1\n$ ---- sets\n*SET_NODE_LIST\n5\n"
+      "1,2\n$ the others\n3,4\n$ ---- end\n*END\n";
+  write_mesh(folder / "b.k", read_deck(folder, text));
+  const std::string written = read_text(folder / "b.k");
+  for (const std::string_view kept :
+       {"*NODE\n$ second\n$ fourth\n  ", "$ ---- solids\n*ELEMENT_SOLID\n  ",
+        "$ ---- more nodes\n$ ---- sets\n*SET_NODE_LIST\n5\n$ the others\n  ",
+        "$ ---- end\n*END\n"}) {
+    CHECK_MESSAGE(written.find(kept) != std::string::npos, kept);
+  }
+  write_mesh(folder / "c.k", read_mesh(folder / "b.k"));
+  CHECK(read_text(folder / "c.k") == written);
+}
+
+TEST_CASE("a deck of LS-DYNA without solids of its own is read again") {
+  const TempFolder folder;
+  write_mesh(folder / "b.k", read_deck(folder,
+                                       "*KEYWORD\n*NODE\n1,0,0,0\n*ELEMENT_SOLID\n"
+                                       "*ELEMENT_SOLID_ORTHO\n1,1\n*END\n"));
+  CHECK(read_mesh(folder / "b.k").points.size() == 1);
+}
+
 TEST_CASE("numbers of LS-DYNA that are wider than their fields are written between commas") {
   const TempFolder folder;
   const std::string text =
