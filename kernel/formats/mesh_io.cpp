@@ -242,7 +242,7 @@ constexpr std::array<Codec, 24> kCodecs = {
      {read_plain<formats::read_nastran>, formats::write_nastran, kNastranRoom, false,
       formats::not_in_nastran},
      {read_plain<formats::read_elmer>, formats::write_elmer, kElmerRoom, true},
-     {read_plain<formats::read_unv>, formats::write_unv, kUnvRoom},
+     {read_plain<formats::read_unv>, formats::write_unv, kUnvRoom, false, formats::not_in_unv},
      {read_plain<formats::read_mfem>, formats::write_mfem, kMfemRoom, false, formats::not_in_mfem},
      {read_plain<formats::read_lsdyna>, formats::write_lsdyna, kLsDynaRoom, false,
       formats::not_in_lsdyna},

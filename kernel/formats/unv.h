@@ -4,7 +4,9 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include "kernel/formats/element_kinds.h"
 #include "kernel/formats/tet_place.h"
@@ -43,5 +45,8 @@ MeshData read_unv(const std::filesystem::path& file, TetPlace* question = nullpt
 
 /// Writes datasets 2411, 2412 and 2467, or 2435, 2452 or 2477 where groups came in it. Doubles have all digits. @throws Error
 void write_unv(const std::filesystem::path& file, const MeshView& mesh);
+
+/// What it cannot hold of a mesh, one sentence each.
+std::vector<std::string> not_in_unv(const std::filesystem::path& file, const MeshData& mesh);
 
 }  // namespace tetmend::formats

@@ -155,6 +155,7 @@ class UnvWriter {
         listed.emplace_back(8, elements_[list][i]);
       }
     }
+    std::erase_if(made, [](const WrittenGroup& group) { return group.members.empty(); });
     return made;
   }
 
@@ -209,6 +210,18 @@ std::size_t unv_pieces_to_miss(const MeshData& mesh) {
   return static_cast<std::size_t>(
       std::count_if(mesh.deck.begin(), mesh.deck.end(),
                     [](const std::string& piece) { return !piece.starts_with(kUnvGroupsPiece); }));
+}
+
+std::vector<std::string> not_in_unv(const std::filesystem::path&, const MeshData& mesh) {
+  const MeshView view(mesh);
+  const std::vector<GroupMembers> members = members_of_groups(view, ElementLists(view));
+  std::size_t empty = 0;
+  for (std::size_t g = 0; g < members.size(); ++g) {
+    const bool has_none = members[g].points.empty() && members[g].elements.empty();
+    if (has_none && !mesh.groups[g].name.empty()) ++empty;
+  }
+  if (empty == 0) return {};
+  return {fmt::format("{} groups have no members: not kept", empty)};
 }
 
 void write_unv(const std::filesystem::path& file, const MeshView& mesh) {

@@ -162,6 +162,19 @@ TEST_CASE("groups of a universal file come back in the dataset that they came in
   }
 }
 
+TEST_CASE("a group without members is in no universal file, and a note says so") {
+  const TempFolder folder;
+  MeshData mesh = awkward_mesh();
+  mesh.groups = {{3, 7777, "nobody", {}, {}}, {3, mesh.tets[0].label, "some", {}, {}}};
+  const std::vector<std::string> notes = not_written(folder / "a.unv", mesh);
+  CHECK(std::count(notes.begin(), notes.end(), "1 groups have no members: not kept") == 1);
+  write_mesh(folder / "a.unv", mesh);
+  CHECK(read_text(folder / "a.unv").find("nobody") == std::string::npos);
+  const MeshData again = read_mesh(folder / "a.unv");
+  CHECK(std::any_of(again.groups.begin(), again.groups.end(),
+                    [](const Group& group) { return group.name == "some"; }));
+}
+
 TEST_CASE("members of groups that are not in a universal file are named") {
   const TempFolder folder;
   const MeshData mesh =
