@@ -256,8 +256,8 @@ std::string format_build(const BuildReport& report) {
     text += "note: the mesh was mirrored: two vertices were swapped in every tet to put it right\n";
   }
   note(report.reordered_tets, "tet", "tets", "listed the vertices the other way round: corrected");
-  note(report.inverted_tets, "tet", "tets", "of negative volume kept");
-  note(report.flat_tets, "tet", "tets", "of zero volume (or too close to tell) kept");
+  note(report.inverted_tets, "tet", "tets", "of negative volume");
+  note(report.flat_tets, "tet", "tets", "of zero volume (or too close to tell)");
   note(report.constrained_faces, "face", "faces", "inside the volume constrained");
   note(report.dropped_triangles, "triangle", "triangles", "inside a region dropped");
   note(report.dropped_edges, "edge", "edges", "inside a region dropped");

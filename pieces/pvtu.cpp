@@ -16,11 +16,6 @@ namespace tetmend::pieces {
 
 namespace {
 
-std::string as_components(std::size_t components) {
-  if (components == 1) return {};
-  return fmt::format(" NumberOfComponents=\"{}\"", components);
-}
-
 /// Counted from 1.
 std::size_t line_of(const std::filesystem::path& file, std::ptrdiff_t offset) {
   std::ifstream in(file, std::ios::binary);
@@ -67,7 +62,7 @@ void write_pvtu(const std::filesystem::path& file, std::span<const std::string> 
     out.put(fmt::format("<{}>\n", name));
     for (const PvtuArray& array : arrays) {
       out.put(fmt::format("<PDataArray type=\"{}\" Name=\"{}\"{}/>\n", array.type,
-                          formats::xml_escaped(array.name), as_components(array.components)));
+                          formats::xml_escaped(array.name), formats::vtu_components(array.components)));
     }
     out.put(fmt::format("</{}>\n", name));
   };

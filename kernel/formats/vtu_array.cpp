@@ -105,11 +105,15 @@ std::string_view vtu_type_of(const DataArray& array) {
   return kTypes[array.values.index()];
 }
 
+std::string vtu_components(std::size_t components) {
+  return components == 1 ? "" : fmt::format(" NumberOfComponents=\"{}\"", components);
+}
+
 std::string vtu_array_tag(std::string_view name, std::string_view type, std::size_t components,
                           bool is_text, bool is_id) {
-  return fmt::format(
-      "<DataArray type=\"{}\" {}Name=\"{}\" NumberOfComponents=\"{}\" format=\"{}\">\n", type,
-      is_id ? "IdType=\"1\" " : "", xml_escaped(name), components, is_text ? "ascii" : "binary");
+  return fmt::format("<DataArray type=\"{}\" {}Name=\"{}\"{} format=\"{}\">\n", type,
+                     is_id ? "IdType=\"1\" " : "", xml_escaped(name), vtu_components(components),
+                     is_text ? "ascii" : "binary");
 }
 
 std::string vtu_head(std::uint64_t points, std::uint64_t cells) {

@@ -61,6 +61,9 @@ class VtuArray {
 std::string xml_escaped(std::string_view text);
 /// As files name the type of its numbers.
 std::string_view vtu_type_of(const DataArray& array);
+/// The attribute of how many, with a blank in front. None for one: meshio makes a table of an array that
+/// has it.
+std::string vtu_components(std::size_t components);
 /// What stands before the content of an array, which follows as two streams of base64: header() of its
 /// blocks, and the blocks; or as text.
 /// @param is_id  VTK's vtkIdType, which the type must be

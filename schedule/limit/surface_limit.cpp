@@ -373,8 +373,12 @@ SurfaceLimit compute_limit(const TetMesh& mesh, std::vector<std::pair<TetHandle,
   limit.n_forced =
       std::max(count_independent(arguments), (lines.size() + kEdgesOfTet - 1) / kEdgesOfTet);
   if (const auto angle = bounds.quality.value()) limit.q_worst = std::sin(*angle * kDegree);
-  limit.theta_min = bounds.smallest.value();
-  if (const auto angle = bounds.largest.value()) limit.theta_max = 180 - *angle;
+  // Where a mesh could be of regular tets alone, it is not bounded.
+  constexpr double kRegular = 70.52877936550931;  // degrees: acos(1/3)
+  const auto smallest = bounds.smallest.value();
+  if (smallest && *smallest < kRegular) limit.theta_min = smallest;
+  const auto largest = bounds.largest.value();
+  if (largest && 180 - *largest > kRegular) limit.theta_max = 180 - *largest;
   return limit;
 }
 
