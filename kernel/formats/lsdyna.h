@@ -61,11 +61,29 @@ inline bool lsdyna_holds(int vtk_type) {
   }
 }
 
-/// The eight nodes of a solid that is no hexahedron, by the vertices of VTK: some stand there twice.
-inline constexpr std::array<std::uint8_t, 8> kLsDynaTet = {0, 1, 2, 3, 3, 3, 3, 3};
-inline constexpr std::array<std::uint8_t, 8> kLsDynaPyramid = {0, 1, 2, 3, 4, 4, 4, 4};
-inline constexpr std::array<std::uint8_t, 8> kLsDynaPrism = {0, 2, 5, 3, 1, 1, 4, 4};
-inline constexpr std::array<std::uint8_t, 8> kLsDynaHexahedron = {0, 1, 2, 3, 4, 5, 6, 7};
+inline constexpr std::size_t kLsDynaNodesOfSolid = 8;  ///< that is of first order
+
+/// The nodes of a solid, by the vertices of VTK: of one that is no hexahedron some stand there
+/// twice. Null: it has ten nodes, in VTK's order, or is no solid.
+inline const std::uint8_t* lsdyna_order(int vtk_type) {
+  using Order = std::array<std::uint8_t, kLsDynaNodesOfSolid>;
+  static constexpr Order kTet = {0, 1, 2, 3, 3, 3, 3, 3};
+  static constexpr Order kPyramid = {0, 1, 2, 3, 4, 4, 4, 4};
+  static constexpr Order kPrism = {0, 2, 5, 3, 1, 1, 4, 4};
+  static constexpr Order kHexahedron = {0, 1, 2, 3, 4, 5, 6, 7};
+  switch (vtk_type) {
+    case vtk_tet:
+      return kTet.data();
+    case vtk_pyramid:
+      return kPyramid.data();
+    case vtk_prism:
+      return kPrism.data();
+    case vtk_hexahedron:
+      return kHexahedron.data();
+    default:
+      return nullptr;
+  }
+}
 
 /// A title of one line that opens neither a keyword nor a comment.
 bool is_lsdyna_name(std::string_view name);

@@ -11,19 +11,6 @@
 namespace tetmend::formats {
 namespace {
 
-const std::uint8_t* vertex_order_of(const ElementKind& kind) {
-  switch (kind.vtk_type) {
-    case vtk_tet:
-      return kLsDynaTet.data();
-    case vtk_pyramid:
-      return kLsDynaPyramid.data();
-    case vtk_prism:
-      return kLsDynaPrism.data();
-    default:
-      return nullptr;
-  }
-}
-
 /// By which of its nodes are the same.
 const ElementKind* kind_of_solid(const std::vector<std::int64_t>& n) {
   if (n.size() == 10) return element_kind(vtk_tet10);
@@ -32,9 +19,9 @@ const ElementKind* kind_of_solid(const std::vector<std::int64_t>& n) {
     return std::all_of(n.begin() + static_cast<std::ptrdiff_t>(from), n.end(),
                        [&](std::int64_t each) { return each == n[from]; });
   };
-  if (n.size() > kLsDynaHexahedron.size()) return nullptr;
+  if (n.size() > kLsDynaNodesOfSolid) return nullptr;
   if (same(3)) return element_kind(vtk_tet);
-  if (n.size() != 8) return nullptr;
+  if (n.size() != kLsDynaNodesOfSolid) return nullptr;
   if (same(4)) return element_kind(vtk_pyramid);
   if (n[4] == n[5] && n[6] == n[7]) return element_kind(vtk_prism);
   return element_kind(vtk_hexahedron);
@@ -196,7 +183,7 @@ void LsDynaMesh::add_solid(std::string_view line, std::vector<std::int64_t>& num
   row.kind = kind_of_solid(listed);
   if (row.kind == nullptr)
     fail(line, "the element is none of 4, 5, 6, 8 or 10 nodes: of higher order?");
-  const std::uint8_t* order = vertex_order_of(*row.kind);
+  const std::uint8_t* order = lsdyna_order(row.kind->vtk_type);
   for (std::size_t k = 0; k < listed.size(); ++k) {
     const std::size_t to = order == nullptr ? k : order[k];
     if (to < row.kind->width) row.vertices[to] = node(listed[k], line);

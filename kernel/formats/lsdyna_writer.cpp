@@ -27,25 +27,10 @@ constexpr std::size_t kFieldsOfCard = 8;  // of sets
 
 constexpr std::array<std::int64_t, 3> kNumberLimits = {99'999'999, INT32_MAX, INT64_MAX};
 
-const std::uint8_t* order_of_solid(int vtk_type) {
-  switch (vtk_type) {
-    case vtk_tet:
-      return kLsDynaTet.data();
-    case vtk_pyramid:
-      return kLsDynaPyramid.data();
-    case vtk_prism:
-      return kLsDynaPrism.data();
-    case vtk_hexahedron:
-      return kLsDynaHexahedron.data();
-    default:
-      return nullptr;  // ten nodes
-  }
-}
-
 constexpr Label kMostPart = 99999999;  // what a field of eight characters holds
 
 bool is_solid(const ElementList& list) {
-  return list.kind.vtk_type == vtk_tet10 || order_of_solid(list.kind.vtk_type) != nullptr;
+  return list.kind.vtk_type == vtk_tet10 || lsdyna_order(list.kind.vtk_type) != nullptr;
 }
 
 class LsDynaWriter {
@@ -161,9 +146,9 @@ class LsDynaWriter {
     LsDynaLine line{buffer, !fits(widths_.integer)};
     line.put(elements_[k][i], widths_.integer);
     line.put(part_of_.at(list.label(i)), widths_.integer);
-    const std::uint8_t* order = order_of_solid(list.kind.vtk_type);
+    const std::uint8_t* order = lsdyna_order(list.kind.vtk_type);
     if (order == nullptr) line.end();
-    const std::size_t nodes = order == nullptr ? list.kind.width : kLsDynaHexahedron.size();
+    const std::size_t nodes = order == nullptr ? list.kind.width : kLsDynaNodesOfSolid;
     for (std::size_t n = 0; n < nodes; ++n) {
       line.put(points_[list.vertices(i)[order == nullptr ? n : order[n]]], widths_.integer);
     }
