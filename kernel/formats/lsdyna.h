@@ -17,10 +17,16 @@
 
 namespace tetmend::formats {
 
-/// MeshData::variant of such a mesh. The first piece of its deck are deck_remarks(), the second says
-/// how wide fields are; the others follow the file, each with a letter of LsDynaPiece in front.
+/// MeshData::variant of such a mesh.
 inline constexpr std::string_view kLsDyna = "LS-DYNA";
-inline constexpr std::size_t kLsDynaPieces = 2;  ///< before those of the file
+
+/// The first pieces of its deck; the others follow the file, each with a letter of LsDynaPiece in front.
+enum LsDynaHead : std::size_t {
+  lsdyna_remarks,  ///< see deck_remarks()
+  lsdyna_fields,   ///< how wide they are: "8 16"
+  lsdyna_folder,   ///< that the deck lay in, if it names other files; else empty
+  kLsDynaPieces
+};
 
 enum LsDynaPiece : char {
   lsdyna_text = 'T',      ///< word for word
@@ -91,6 +97,9 @@ bool is_lsdyna_name(std::string_view name);
 /// Numbers of parts are labels. Points that lines which are kept word for word name become required
 /// vertices; shells and segments of sets are triangles, and stay in the deck. @throws Error
 MeshData read_lsdyna(const std::filesystem::path& file, TetPlace* question = nullptr);
+
+/// The deck and all that it includes; the deck alone where one of them cannot be read.
+std::vector<std::filesystem::path> lsdyna_files(const std::filesystem::path& deck);
 
 /// @throws Error
 void write_lsdyna(const std::filesystem::path& file, const MeshView& mesh);

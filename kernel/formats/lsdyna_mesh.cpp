@@ -29,8 +29,8 @@ const ElementKind* kind_of_solid(const std::vector<std::int64_t>& n) {
 
 }  // namespace
 
-LsDynaMesh::LsDynaMesh(const InputFile& file, TetPlace* question)
-    : LsDynaDeck(file), question_(question), sorter_(mesh_) {
+LsDynaMesh::LsDynaMesh(const std::filesystem::path& deck, TetPlace* question)
+    : LsDynaDeck(deck), question_(question), sorter_(mesh_) {
   for (const LsDynaBlock& block : blocks_) {
     use(block);
     if (is_nodes(block)) read_nodes(block);
@@ -54,18 +54,24 @@ void LsDynaMesh::refuse_other_places() const {
   };
   if (std::none_of(blocks_.begin(), blocks_.end(), is_nodes)) {
     const auto include = find("INCLUDE");
-    const auto files = include == blocks_.end() ? std::vector<std::string_view>() : lines(*include);
-    if (files.empty()) file_.fail_at_line(file_.end(), "the file has no nodes: expected *NODE");
-    fail(files[0],
-         fmt::format("the file has no nodes: *INCLUDE is not followed, but the mesh of {} "
-                     "can be improved by itself",
-                     in_quotes(trimmed_field(files[0]))));
+    const auto names = include == blocks_.end() ? std::vector<std::string_view>() : lines(*include);
+    if (names.empty()) {
+      const InputFile& deck = files_.deck();
+      deck.fail_at_line(deck.end(), "the file has no nodes: expected *NODE");
+    }
+    if (!unread_.empty()) {
+      fail(names[0], fmt::format("there are no nodes, and of the files of *INCLUDE not all are "
+                                 "read: {}",
+                                 unread_.front()));
+    }
+    fail(names[0],
+         fmt::format("there are no nodes, and *{} is not followed: expected *NODE or *INCLUDE",
+                     include->keyword));
   }
   const auto others = find("ELEMENT_SOLID");
   if (others != blocks_.end() && std::none_of(blocks_.begin(), blocks_.end(), is_solids)) {
-    file_.fail_at_line(others->begin, fmt::format("solids of *{} cannot be read: expected "
-                                                  "*ELEMENT_SOLID",
-                                                  others->keyword));
+    fail({others->begin, 1},
+         fmt::format("solids of *{} cannot be read: expected *ELEMENT_SOLID", others->keyword));
   }
 }
 
@@ -79,9 +85,8 @@ NumberIndex LsDynaMesh::index_of(const std::vector<std::int64_t>& numbers,
                                  const std::vector<const char*>& places,
                                  std::string_view what) const {
   return {numbers, [&](std::uint32_t i) {
-            file_.fail_at_line(
-                places[i],
-                fmt::format("the number '{}' of {} appears for the second time", numbers[i], what));
+            fail({places[i], 1}, fmt::format("the number '{}' of {} appears for the second time",
+                                             numbers[i], what));
           }};
 }
 
@@ -190,7 +195,7 @@ void LsDynaMesh::add_solid(std::string_view line, std::vector<std::int64_t>& num
   }
   sorter_.add(row, true);
   if (is_last_asked_for(question_, mesh_, row.kind->vtk_type))
-    question_->place = file_.line_place(row.place);
+    question_->place = files_.file_of(row.place).line_place(row.place);
   elements_.push_back(last_place(mesh_, *row.kind));
   solid_numbers_.push_back(row.number);
   solid_places_.push_back(row.place);

@@ -14,6 +14,7 @@
 
 #include "kernel/formats/element_rows.h"
 #include "kernel/formats/element_sets.h"
+#include "kernel/formats/included_path.h"
 #include "kernel/formats/label_names.h"
 #include "kernel/formats/lsdyna.h"
 #include "kernel/formats/lsdyna_fields.h"
@@ -49,7 +50,7 @@ class LsDynaWriter {
     const MeshData* data = mesh.data();
     if (data == nullptr || data->variant != kLsDyna || data->deck.size() < kLsDynaPieces) return;
     deck_ = &data->deck;
-    const std::string& widths = (*deck_)[1];
+    const std::string& widths = (*deck_)[lsdyna_fields];
     const char* end = widths.data() + widths.size();
     const char* next = std::from_chars(widths.data(), end, widths_.integer).ptr;
     if (next != end) std::from_chars(next + 1, end, widths_.real);
@@ -327,9 +328,10 @@ void write_lsdyna(const std::filesystem::path& file, const MeshView& mesh) {
   LsDynaWriter(file, mesh).write();
 }
 
-std::vector<std::string> not_in_lsdyna(const std::filesystem::path&, const MeshData& mesh) {
+std::vector<std::string> not_in_lsdyna(const std::filesystem::path& file, const MeshData& mesh) {
   const bool has_deck = mesh.variant == kLsDyna && mesh.deck.size() >= kLsDynaPieces;
-  const std::size_t room = has_deck && mesh.deck[1].ends_with("20") ? 20 : LsDynaWidths().real;
+  const std::size_t room =
+      has_deck && mesh.deck[lsdyna_fields].ends_with("20") ? 20 : LsDynaWidths().real;
   std::size_t rounded = 0;
   for (const Point& point : mesh.points) {
     for (int axis = 0; axis < 3; ++axis) rounded += lsdyna_rounds(point[axis], room) ? 1 : 0;
@@ -344,6 +346,10 @@ std::vector<std::string> not_in_lsdyna(const std::filesystem::path&, const MeshD
   if (too_long > 0) {
     notes.push_back(fmt::format(
         "{} labels have more than eight digits: their parts get other numbers", too_long));
+  }
+  if (!has_deck) return notes;
+  for (std::string& note : included_files_stay(file, mesh.deck[lsdyna_folder], "*INCLUDE")) {
+    notes.push_back(std::move(note));
   }
   return notes;
 }

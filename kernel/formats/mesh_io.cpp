@@ -385,6 +385,7 @@ std::vector<std::filesystem::path> source_files(const std::filesystem::path& fil
   const std::string extension = format_extension(file);
   if (extension == ".inp") return formats::inp_files(file);
   if (extension == ".bdf" || extension == ".nas") return formats::nastran_files(file);
+  if (extension == ".k" || extension == ".key") return formats::lsdyna_files(file);
   return mesh_files(file);
 }
 
