@@ -214,6 +214,8 @@ class Carrying {
     }
     now_.point_numbers = numbers_of(before_.point_numbers, old_point_);
     now_.tet_numbers = numbers_of(before_.tet_numbers, old_tet_);
+    now_.taken_point_numbers = before_.taken_point_numbers;
+    now_.taken_element_numbers = before_.taken_element_numbers;
     carry_points(locator);
     carry_tets(locator);
     static const std::vector<Label> kNone;

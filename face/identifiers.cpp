@@ -114,7 +114,7 @@ bool are_identifiers(const DataArray& array) {
 NewIdentifiers::NewIdentifiers(std::vector<const DataArray*> arrays)
     : arrays_(std::move(arrays)),
       numbers_(largest_of(arrays_), std::array{limit_of(arrays_)}, [this] {
-        std::vector<formats::NewNumbers::Range> taken;
+        std::vector<NumberRange> taken;
         for (const DataArray* array : arrays_) {
           for (const std::int64_t number : numbers_of(*array)) taken.emplace_back(number, number);
         }

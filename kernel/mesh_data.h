@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
@@ -18,6 +19,8 @@ namespace tetmend {
 using Point = Eigen::Vector3d;
 /// Reference label of a tet, a triangle or an edge, as the file gives it.
 using Label = std::int32_t;
+/// Numbers that a file gives to points or elements: the first and the last.
+using NumberRange = std::pair<std::int64_t, std::int64_t>;
 
 /// A vertex, curve, surface or volume of the geometry that a mesh was made from.
 struct TETMEND_API GeometricEntity {
@@ -86,6 +89,9 @@ struct TETMEND_API MeshData {
   std::vector<std::array<Label, 2>> point_entities;  ///< {dimension, tag} of each point, or none
   /// What the file calls each point or element, no number twice; 0: nothing yet. Empty: 1, 2, 3...
   std::vector<std::int64_t> point_numbers, tet_numbers, triangle_numbers, edge_numbers;
+  /// All numbers that the file had for points, and for elements of any kind, in ascending order: also
+  /// of those that are gone. Its other lines, and files beside it, may name them, so none is given anew.
+  std::vector<NumberRange> taken_point_numbers, taken_element_numbers;
   std::vector<DataArray> point_data, tet_data, triangle_data, edge_data;
   std::vector<Group> groups;
   std::vector<GeometricEntity> entities;

@@ -56,4 +56,15 @@ inline double quality_of_points(const Standard& standard, const Point& p0, const
   return v6 * std::sqrt(std::min(weight * (smallest / product), by_length));
 }
 
+/// misses_goal() of any mesh that has qualities, vertices, points and a standard.
+template <class Mesh>
+bool misses_goal_of(const Mesh& mesh, TetHandle t) {
+  if (mesh.quality(t) >= kBadThreshold) return false;
+  if (mesh.standard().terms() != Standard::Terms::sine_and_length) return true;
+  const auto& v = mesh.vertices(t);
+  return static_cast<Quality>(mesh.standard().of_angles().quality(
+             mesh.point(v[0]), mesh.point(v[1]), mesh.point(v[2]), mesh.point(v[3]))) <
+         kBadThreshold;
+}
+
 }  // namespace tetmend

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "kernel/mesh_view.h"
+#include "kernel/quality_of_points.h"
 #include "trace/traced_standard.h"
 
 namespace tetmend {
@@ -165,12 +166,7 @@ Quality SlotMesh::quality(TetHandle t) const {
 }
 
 bool misses_goal(const SlotMesh& mesh, TetHandle t) {
-  if (mesh.quality(t) >= kBadThreshold) return false;
-  if (mesh.standard().terms() != Standard::Terms::sine_and_length) return true;
-  const TetVertices& v = mesh.vertices(t);
-  return static_cast<Quality>(mesh.standard().of_angles().quality(
-             mesh.point(v[0]), mesh.point(v[1]), mesh.point(v[2]), mesh.point(v[3]))) <
-         kBadThreshold;
+  return misses_goal_of(mesh, t);
 }
 
 MeshData SlotMesh::to_data() const {

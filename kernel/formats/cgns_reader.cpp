@@ -75,7 +75,12 @@ class Reader {
     for (const std::string& base : tree_.children("/", "CGNSBase_t")) {
       for (std::string& zone : tree_.children(base, "Zone_t")) zones.push_back(std::move(zone));
     }
-    if (zones.size() != 1) {
+    if (zones.empty()) {
+      tree_.fail("/",
+                 "no node of the file has the label 'Zone_t': meshio writes none, and no program "
+                 "of CGNS reads that");
+    }
+    if (zones.size() > 1) {
       tree_.fail("/", fmt::format("the file has {} zones: expected one", zones.size()));
     }
     zone_ = zones[0];

@@ -50,6 +50,7 @@ ElementLists::ElementLists(const MeshView& mesh) {
   const MeshData* data = mesh.data();
   static const MeshData kNothing;
   const MeshData& more = data == nullptr ? kNothing : *data;
+  taken_numbers_ = more.taken_element_numbers;
   ElementList list;
   list.tets = more.tets;
   if (data == nullptr) {

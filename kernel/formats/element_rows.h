@@ -116,10 +116,13 @@ class ElementLists {
 
   std::span<const ElementList> all() const { return lists_; }
   std::vector<const ElementList*> of_dimension(int dimension) const;
+  /// See MeshData::taken_element_numbers.
+  std::span<const NumberRange> taken_numbers() const { return taken_numbers_; }
 
  private:
   std::vector<MeshData::Tet> own_tets_;  // of a TetMesh
   std::vector<ElementList> lists_;
+  std::span<const NumberRange> taken_numbers_;
 };
 
 }  // namespace tetmend::formats

@@ -43,23 +43,6 @@ std::vector<Label>& parts_of(MeshData& mesh, const ElementKind& kind) {
   }
 }
 
-/// The next numbers for those that have none.
-void complete(std::vector<std::int64_t>& numbers, NewNumbers& next) {
-  for (std::int64_t& number : numbers) {
-    if (number <= 0) number = next.next();
-  }
-}
-
-NewNumbers numbers_beside(std::vector<std::int64_t> known, std::span<const std::int64_t> limits) {
-  std::int64_t most = 0;
-  for (const std::int64_t number : known) most = std::max(most, number);
-  return NewNumbers(most, limits, [known = std::move(known)] {
-    std::vector<NewNumbers::Range> taken;
-    for (const std::int64_t number : known) taken.emplace_back(number, number);
-    return taken;
-  });
-}
-
 }  // namespace
 
 ElementPlace last_place(const MeshData& mesh, const ElementKind& kind) {
@@ -280,9 +263,14 @@ std::vector<GroupMembers> members_of_groups(const MeshView& mesh, const ElementL
 
 std::vector<std::int64_t> written_point_numbers(const MeshView& mesh,
                                                 std::span<const std::int64_t> limits) {
-  std::vector<std::int64_t> numbers;
-  if (mesh.data() != nullptr) numbers = mesh.data()->point_numbers;
-  NewNumbers next = numbers_beside(numbers, limits);
+  std::vector<std::int64_t> known;
+  std::span<const NumberRange> of_file;
+  if (mesh.data() != nullptr) {
+    known = mesh.data()->point_numbers;
+    of_file = mesh.data()->taken_point_numbers;
+  }
+  std::vector<std::int64_t> numbers = known;
+  NewNumbers next = numbers_beside(known, of_file, limits);
   numbers.resize(mesh.point_count(), 0);
   complete(numbers, next);
   return numbers;
@@ -292,6 +280,7 @@ std::vector<std::vector<std::int64_t>> written_element_numbers(
     const ElementLists& lists, std::span<const std::int64_t> limits) {
   std::vector<std::vector<std::int64_t>> numbers;
   std::vector<std::int64_t> known;
+  std::span<const NumberRange> of_file = lists.taken_numbers();
   for (const ElementList& list : lists.all()) {
     auto& of_list = numbers.emplace_back();
     if (list.numbers != nullptr) of_list = *list.numbers;
@@ -302,9 +291,10 @@ std::vector<std::vector<std::int64_t>> written_element_numbers(
   std::sort(known.begin(), known.end());
   if (std::adjacent_find(known.begin(), known.end()) != known.end()) {
     known.clear();
+    of_file = {};
     for (auto& of_list : numbers) std::fill(of_list.begin(), of_list.end(), 0);
   }
-  NewNumbers next = numbers_beside(std::move(known), limits);
+  NewNumbers next = numbers_beside(known, of_file, limits);
   for (auto& of_list : numbers) complete(of_list, next);
   return numbers;
 }

@@ -92,7 +92,7 @@ struct GroupMembers {
 std::vector<GroupMembers> members_of_groups(const MeshView& mesh, const ElementLists& lists);
 
 /// The number of each point or element of a file that keeps them: as they came, others above the
-/// greatest. Where two elements of any kind have one number, all are numbered anew.
+/// greatest that there was. Where two elements of any kind have one number, all are numbered anew.
 /// @param limits  see NewNumbers
 std::vector<std::int64_t> written_point_numbers(const MeshView& mesh,
                                                 std::span<const std::int64_t> limits);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Reads input files of FEBio: sets and what names nodes, and what stands between as text.
 #include <algorithm>
+#include <array>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -29,7 +30,7 @@ class FebioReader : FebioMesh {
   MeshData read() {
     for (const pugi::xml_node node : model_.children()) read_set(node);
     pin_rest();
-    remarks_ = pins_.require_points(file_, tags_, "kinds of elements", mesh_);
+    remarks_ = pins_.require_points(std::array{&file_}, tags_, "kinds of elements", mesh_);
     finish_sets();
     cut();
     mesh_.variant = kFebio;

@@ -12,6 +12,8 @@
 
 #include <fmt/format.h>
 
+#include "kernel/formats/inp_fields.h"
+
 namespace tetmend::formats {
 namespace {
 

@@ -4,39 +4,26 @@
 
 #include <algorithm>
 #include <cctype>
-#include <charconv>
-#include <cmath>
 #include <cstring>
-#include <system_error>
 
-#include <fast_float/fast_float.h>
 #include <fmt/format.h>
 
 #include "kernel/error.h"
 #include "kernel/formats/compression.h"
 #include "kernel/formats/included_path.h"
+#include "kernel/formats/inp_fields.h"
 #include "kernel/formats/inp_types.h"
 
 namespace tetmend::formats {
 namespace {
 
-bool is_blank(char c) {
-  return c == ' ' || c == '\t' || c == '\r';
-}
-
-const char* line_end(const char* begin, const char* end) {
-  const void* found =
-      begin == end ? nullptr : std::memchr(begin, '\n', static_cast<std::size_t>(end - begin));
-  return found == nullptr ? end : static_cast<const char*>(found);
-}
-
 const char* after_line(const char* begin, const char* end) {
-  const char* stop = line_end(begin, end);
+  const char* stop = inp_line_end(begin, end);
   return stop == end ? end : stop + 1;
 }
 
 bool is_keyword(const char* begin, const char* end) {
-  while (begin != end && is_blank(*begin)) ++begin;
+  while (begin != end && is_inp_blank(*begin)) ++begin;
   return end - begin > 1 && begin[0] == '*' && begin[1] != '*';
 }
 
@@ -51,7 +38,8 @@ std::string in_capitals(std::string_view text) {
 std::string keyword_name(std::string_view text) {
   std::string name;
   for (const char c : in_capitals(trimmed(text))) {
-    if (!is_blank(c) || (!name.empty() && name.back() != ' ')) name += is_blank(c) ? ' ' : c;
+    if (!is_inp_blank(c) || (!name.empty() && name.back() != ' '))
+      name += is_inp_blank(c) ? ' ' : c;
   }
   return name;
 }
@@ -95,8 +83,14 @@ void read_parameters(InpBlock& block) {
 
 }  // namespace
 
+const char* inp_line_end(const char* begin, const char* end) {
+  const void* found =
+      begin == end ? nullptr : std::memchr(begin, '\n', static_cast<std::size_t>(end - begin));
+  return found == nullptr ? end : static_cast<const char*>(found);
+}
+
 std::string_view trimmed(std::string_view text) {
-  const auto blank = [](char c) { return is_blank(c) || c == '\n'; };
+  const auto blank = [](char c) { return is_inp_blank(c) || c == '\n'; };
   while (!text.empty() && blank(text.front())) text.remove_prefix(1);
   while (!text.empty() && blank(text.back())) text.remove_suffix(1);
   return text;
@@ -122,132 +116,9 @@ std::string_view InpBlock::value(std::string_view name) const {
   return found == nullptr ? std::string_view() : found->value;
 }
 
-// ---- Fields -------------------------------------------------------------------------------------
-
-InpFields::InpFields(const InpBlock& block)
-    : file_(block.input != nullptr ? *block.input : *block.file),
-      position_(block.input != nullptr ? block.input->begin() : block.data),
-      end_(block.input != nullptr ? block.input->end() : block.end),
-      line_(position_),
-      line_end_(position_),
-      place_(position_) {}
-
-bool InpFields::next_line() {
-  while (position_ != end_) {
-    line_ = position_;
-    line_end_ = line_end(line_, end_);
-    position_ = line_end_ == end_ ? end_ : line_end_ + 1;
-    const char* first = line_;
-    while (first != line_end_ && is_blank(*first)) ++first;
-    if (first == line_end_ || (line_end_ - first > 1 && first[0] == '*' && first[1] == '*')) {
-      continue;
-    }
-    place_ = next_ = first;
-    return true;
-  }
-  place_ = end_;
-  next_ = nullptr;
-  return false;
-}
-
-std::string_view InpFields::field() {
-  if (next_ == nullptr) return {};
-  const char* first = next_;
-  while (first != line_end_ && is_blank(*first)) ++first;
-  place_ = first;
-  const char* stop = first;
-  bool quoted = false;
-  while (stop != line_end_ && (*stop != ',' || quoted)) quoted ^= *stop++ == '"';
-  next_ = stop == line_end_ ? nullptr : stop + 1;
-  // A comma at the end of a line is followed by nothing.
-  if (next_ != nullptr) {
-    const char* rest = next_;
-    while (rest != line_end_ && is_blank(*rest)) ++rest;
-    if (rest == line_end_) next_ = nullptr;
-  }
-  while (stop != first && is_blank(stop[-1])) --stop;
-  return {first, static_cast<std::size_t>(stop - first)};
-}
-
-std::string_view InpFields::field_of_lines(std::string_view what) {
-  if (next_ == nullptr && !next_line()) {
-    fail(fmt::format("the data lines end where {} is expected", what));
-  }
-  return field();
-}
-
-bool to_integer(std::string_view text, std::int64_t& value) {
-  if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);
-  const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  return error == std::errc() && stop == text.data() + text.size() && !text.empty();
-}
-
-std::int64_t InpFields::integer(std::string_view what, bool of_lines) {
-  const std::string_view text = of_lines ? field_of_lines(what) : field();
-  refuse_cut(text, what);
-  std::int64_t value = 0;
-  if (!to_integer(text, value)) {
-    fail(fmt::format("{} is not an integer: expected {}", in_quotes(text), what));
-  }
-  if (value < 0 || value > kInpGreatestNumber) {
-    fail(fmt::format("{} is out of range: expected {}", in_quotes(text), what));
-  }
-  return value;
-}
-
-double InpFields::real(std::string_view what) {
-  std::string_view text = field();
-  refuse_cut(text, what);
-  if (text.empty()) return 0;
-  if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);
-  double value = 0;
-  auto result = fast_float::from_chars(text.data(), text.data() + text.size(), value);
-  if (result.ec == std::errc() && result.ptr != text.data() + text.size()) {
-    std::string fortran(text.substr(0, 1000));
-    std::replace(fortran.begin(), fortran.end(), 'D', 'e');
-    std::replace(fortran.begin(), fortran.end(), 'd', 'e');
-    const char* last = fortran.data() + fortran.size();
-    result = fast_float::from_chars(fortran.data(), last, value);
-    if (result.ptr != last) result.ec = std::errc::invalid_argument;
-  }
-  if (result.ec == std::errc::invalid_argument) {
-    fail(fmt::format("{} is not a number: expected {}", in_quotes(text), what));
-  }
-  if (!std::isfinite(value)) {
-    fail(fmt::format("{} is not a finite number: expected {}", in_quotes(text), what));
-  }
-  return value;
-}
-
-// A number that touches the end of the file may have lost its last digits.
-void InpFields::refuse_cut(std::string_view text, std::string_view what) const {
-  if (text.data() == nullptr || text.data() + text.size() != file_.end()) return;
-  fail(fmt::format(
-      "the file ends right behind {}: expected {} and a line break; the file seems truncated",
-      in_quotes(text), what));
-}
-
-std::string_view InpFields::rest() const {
-  if (next_ == nullptr) return {};
-  const char* stop = line_end_;
-  while (stop != next_ && is_blank(stop[-1])) --stop;
-  return {next_ - 1, static_cast<std::size_t>(stop - next_ + 1)};
-}
-
-std::string InpFields::line_place() const {
-  return file_.line_place(place_);
-}
-
-void InpFields::fail(std::string_view reason) const {
-  file_.fail_at_line(place_, reason);
-}
-
-// ---- Lines --------------------------------------------------------------------------------------
-
-InpLines::InpLines(const std::filesystem::path& file) {
-  folder_ = file.parent_path();
+InpLines::InpLines(const std::filesystem::path& file) : files_(file), folder_(file.parent_path()) {
   includes.push_back({});
-  read(open(file, nullptr), file, 0);
+  read(files_.deck(), file, 0);
   choose_scopes();
   place_blocks();
   set_offsets();
@@ -307,7 +178,7 @@ void InpLines::choose_scopes() {
   for (std::size_t s = 1; s < scopes.size(); ++s) {
     if (of_instances.contains(s)) continue;
     if (!parts.try_emplace(scopes[s].name, s).second) {
-      throw Error(fmt::format("{}: there is a part {} already", opened_.front().string(),
+      throw Error(fmt::format("{}: there is a part {} already", files_.paths().front().string(),
                               in_quotes(scopes[s].name)));
     }
   }
@@ -364,35 +235,12 @@ void InpLines::set_offsets() {
     elements += scopes[s].most_element;
     if (std::max(nodes, elements) < kMost) continue;
     throw Error(
-        fmt::format("{}: the numbers of the parts are too great", opened_.front().string()));
+        fmt::format("{}: the numbers of the parts are too great", files_.paths().front().string()));
   }
-}
-
-/// A file that is included again is not read again.
-const InputFile& InpLines::open(const std::filesystem::path& path, const InpBlock* from) {
-  constexpr int kMostFiles = 10000;
-  if (++inclusions_ > kMostFiles) from->fail("more than 10,000 files are included");
-  std::unique_ptr<InputFile>& file = files_[place_of_included(path)];
-  try {
-    if (file == nullptr) {
-      file = std::make_unique<InputFile>(path);
-      opened_.push_back(path);
-      size_of_files_ += file->size_of_file();
-    }
-  } catch (const Error& error) {
-    if (from == nullptr) throw;
-    from->fail(error.what());
-  }
-  included_ += file->size();
-  if (from != nullptr && is_bomb(size_of_files_, included_)) {
-    from->fail("the same files are included again and again, hundreds of times their size");
-  }
-  return *file;
 }
 
 void InpLines::read(const InputFile& file, const std::filesystem::path& path, int number) {
-  const auto canonical = place_of_included(path).native();
-  open_.insert(canonical);
+  const DeckFiles::Nested nested(files_, path);
   const char* end = file.end();
   InpBlock block;
   block.file = &file;
@@ -401,7 +249,7 @@ void InpLines::read(const InputFile& file, const std::filesystem::path& path, in
   const bool is_marked = std::string_view(file.begin(), file.size()).starts_with(kMark);
   block.begin = block.data = file.begin() + (is_marked ? kMark.size() : 0);
   for (const char* next = block.begin; next != end;) {
-    if (!is_keyword(next, line_end(next, end))) {
+    if (!is_keyword(next, inp_line_end(next, end))) {
       next = after_line(next, end);
       continue;
     }
@@ -413,7 +261,7 @@ void InpLines::read(const InputFile& file, const std::filesystem::path& path, in
     // parameters begin with no digit: such a line is data.
     bool goes_on =
         trimmed({block.begin, static_cast<std::size_t>(next - block.begin)}).ends_with(',');
-    while (goes_on && next != end && !is_keyword(next, line_end(next, end))) {
+    while (goes_on && next != end && !is_keyword(next, inp_line_end(next, end))) {
       const char* line = next;
       const char* line_after = after_line(next, end);
       const std::string_view more = trimmed({line, static_cast<std::size_t>(line_after - line)});
@@ -425,12 +273,12 @@ void InpLines::read(const InputFile& file, const std::filesystem::path& path, in
   }
   block.end = end;
   add(block, path);
-  open_.erase(canonical);
 }
 
 void InpLines::add(InpBlock block, const std::filesystem::path& path) {
   if (block.begin == block.end) return;
-  if (is_bomb(size_of_files_, sizeof(InpBlock) * blocks.size())) {  // only where the deck is packed
+  if (is_bomb(size_of_files(),
+              sizeof(InpBlock) * blocks.size())) {  // only where the deck is packed
     block.fail("the deck has more keywords than so small a file can hold of a mesh");
   }
   if (block.data != block.begin) read_parameters(block);
@@ -446,10 +294,10 @@ void InpLines::add(InpBlock block, const std::filesystem::path& path) {
   const std::string_view name = block.value("INPUT");
   if (name.empty()) block.fail("*INCLUDE names no file: expected INPUT=FILE");
   const std::filesystem::path target = included_path(path.parent_path(), name);
-  if (open_.contains(place_of_included(target).native())) {
-    block.fail(fmt::format("{} includes itself: expected another file", in_quotes(name)));
-  }
-  const InputFile& file = open(target, &block);
+  std::string reason;
+  const InputFile* included = files_.include(target, {block.begin, name}, reason);
+  if (included == nullptr) block.fail(reason);
+  const InputFile& file = *included;
   if (has_input) {
     block.input = &file;
     blocks.push_back(std::move(block));

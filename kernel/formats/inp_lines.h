@@ -6,19 +6,23 @@
 #include <deque>
 #include <filesystem>
 #include <map>
-#include <memory>
-#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "kernel/formats/input_file.h"
+#include "kernel/formats/deck_files.h"
 
 namespace tetmend::formats {
 
 /// In capitals, without blanks at the ends or quotes: names are compared so.
 std::string inp_key(std::string_view text);
 std::string_view trimmed(std::string_view text);
+/// A blank, a tab, or the first half of a line break of Windows.
+inline bool is_inp_blank(char c) {
+  return c == ' ' || c == '\t' || c == '\r';
+}
+/// Where a line ends: at its line break, or where the text does.
+const char* inp_line_end(const char* begin, const char* end);
 
 /// Of nodes and elements, that is read.
 inline constexpr std::int64_t kInpGreatestNumber = std::int64_t{1} << 53;
@@ -78,46 +82,6 @@ struct InpBlock {
   [[noreturn]] void fail(std::string_view reason) const { file->fail_at_line(begin, reason); }
 };
 
-/// The fields of a block's data lines, parted by commas. Comments and empty lines are passed over.
-class InpFields {
- public:
-  explicit InpFields(const InpBlock& block);
-
-  /// Goes to the next line; false at the end.
-  bool next_line();
-  /// True if this line has another field.
-  bool more() const { return next_ != nullptr; }
-  /// The next field without the blanks around it; empty if there is none.
-  std::string_view field();
-  /// The next field; where the line has none, that of the next line.
-  std::string_view field_of_lines(std::string_view what);
-  std::int64_t integer(std::string_view what, bool of_lines = false);
-  /// Empty counts as 0.
-  double real(std::string_view what);
-  /// The present line without its line break.
-  std::string_view line() const { return {line_, static_cast<std::size_t>(line_end_ - line_)}; }
-  /// What is left of the line, from the comma on.
-  std::string_view rest() const;
-  const char* place() const { return place_; }
-  /// "deck.inp:7", of the present line.
-  std::string line_place() const;
-  [[noreturn]] void fail(std::string_view reason) const;
-
- private:
-  void refuse_cut(std::string_view text, std::string_view what) const;
-
-  const InputFile& file_;
-  const char* position_;
-  const char* end_;
-  const char* line_;
-  const char* line_end_;
-  const char* next_ = nullptr;
-  const char* place_;
-};
-
-/// The value of a field that is nothing but an integer; false if it is none.
-bool to_integer(std::string_view text, std::int64_t& value);
-
 /// A deck with the files that it includes, each where it is included.
 class InpLines {
  public:
@@ -138,21 +102,15 @@ class InpLines {
   std::size_t find_instance(std::string_view name) const;
 
   /// Bytes of all files, each once however often it is included.
-  std::size_t size_of_files() const { return size_of_files_; }
+  std::size_t size_of_files() const { return files_.size_of_files(); }
   /// That were opened, the deck first.
-  const std::vector<std::filesystem::path>& files() const { return opened_; }
+  const std::vector<std::filesystem::path>& files() const { return files_.paths(); }
 
  private:
   void read(const InputFile& file, const std::filesystem::path& path, int number);
-  const InputFile& open(const std::filesystem::path& path, const InpBlock* from);
   void add(InpBlock block, const std::filesystem::path& path);
 
-  std::map<std::filesystem::path, std::unique_ptr<InputFile>> files_;
-  std::vector<std::filesystem::path> opened_;  // each once
-  std::size_t size_of_files_ = 0;
-  std::size_t included_ = 0;  // bytes, as often as they are
-  int inclusions_ = 0;
-  std::set<std::filesystem::path::string_type> open_;  // one in the other
+  DeckFiles files_;
   std::filesystem::path folder_;
   std::map<std::string, std::size_t, std::less<>> number_of_instance_;  // from 1
   void enter(InpBlock& block);

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "kernel/formats/element_checks.h"
+#include "kernel/formats/inp_fields.h"
 
 namespace tetmend::formats {
 namespace {

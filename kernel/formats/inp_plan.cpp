@@ -10,7 +10,6 @@
 #include "kernel/formats/gmsh_entities.h"
 #include "kernel/formats/inp_lines.h"
 #include "kernel/formats/inp_sets.h"
-#include "kernel/formats/inp_types.h"
 
 namespace tetmend::formats {
 namespace {
@@ -54,13 +53,6 @@ Corners corners_of(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
   order(1, 2);
   order(0, 1);
   return result;
-}
-
-bool is_triangle(const InpKind& kind) {
-  return kind.vtk_type == kVtkTriangle || kind.vtk_type == kVtkTriangle6;
-}
-bool is_tet(const InpKind& kind) {
-  return kind.vtk_type == kVtkTet || kind.vtk_type == kVtkTet10;
 }
 
 }  // namespace
@@ -158,7 +150,7 @@ void InpPlan::find_owners() {
   std::vector<Corners> wanted;
   std::vector<char> flags(mesh_.point_count());
   for (std::size_t k = 0; k < kinds.size(); ++k) {
-    if (!is_triangle(kinds[k])) continue;
+    if (!kinds[k].is_triangle()) continue;
     owners_[k].resize(kinds[k].count);
     for (std::size_t i = 0; i < kinds[k].count; ++i) {
       const std::uint32_t* v = kinds[k].of(i);
@@ -184,7 +176,7 @@ void InpPlan::find_owners() {
     return is_there ? &found[static_cast<std::size_t>(at - places.begin())] : nullptr;
   };
   for (std::size_t k = 0; k < kinds.size(); ++k) {
-    if (!is_tet(kinds[k])) continue;
+    if (!kinds[k].is_tet()) continue;
     for (std::size_t i = 0; i < kinds[k].count; ++i) {
       const std::uint32_t* v = kinds[k].of(i);
       if (flags[v[0]] + flags[v[1]] + flags[v[2]] + flags[v[3]] < 3) continue;
@@ -231,7 +223,7 @@ void InpPlan::assign_kind(std::size_t k) {
   for (std::size_t i = 0; i < kind.count; ++i) {
     const Label part = has_parts ? (*kind.parts)[i] : 0;
     bool is_face = false;
-    if (is_triangle(kind)) {
+    if (kind.is_triangle()) {
       const auto block = block_of_part_.find(part);
       is_face =
           has_deck_ ? block == block_of_part_.end() || block->second == 0 : owners_[k][i].face != 0;
@@ -328,123 +320,6 @@ void InpPlan::place_new(std::vector<InpPiece> pieces) {
   deck.pieces.insert(deck.pieces.begin() + static_cast<std::ptrdiff_t>(at),
                      std::make_move_iterator(pieces.begin()),
                      std::make_move_iterator(pieces.end()));
-}
-
-// ---- Numbers ------------------------------------------------------------------------------------
-
-/// Numbers of Abaqus have at most nine digits; those of CalculiX have 32 bits, and we read more.
-NewNumbers InpPlan::new_numbers(std::int64_t most, const std::vector<std::int64_t>& known) const {
-  constexpr std::array<std::int64_t, 3> kLimits = {999'999'999, INT32_MAX, kInpGreatestNumber};
-  return NewNumbers(most, kLimits, [this, &known] {
-    std::vector<NewNumbers::Range> taken;
-    for (const std::int64_t number : known) taken.emplace_back(number, number);
-    for (const InpPiece& piece : deck.pieces) {
-      add_inp_numbers(piece.kind == InpPieceKind::verbatim ? piece.text : piece.more, taken);
-    }
-    return taken;
-  });
-}
-
-/// Of a number of the mesh; the offsets ascend.
-std::size_t InpPlan::numbering_of(std::int64_t number, std::int64_t InpNumbering::*offset) const {
-  const auto after = std::upper_bound(
-      deck.numberings.begin(), deck.numberings.end(), number - 1,
-      [&](std::int64_t before, const InpNumbering& each) { return before < each.*offset; });
-  return static_cast<std::size_t>(after - deck.numberings.begin()) - 1;
-}
-
-/// A new point belongs where the elements around it do.
-void InpPlan::find_numberings_of_points() {
-  if (deck.numberings.size() < 2) return;
-  constexpr std::uint32_t kOpen = UINT32_MAX;
-  numbering_of_point_.assign(mesh_.point_count(), kOpen);
-  for (std::size_t i = 0; i < data_->point_numbers.size(); ++i) {
-    if (data_->point_numbers[i] == 0) continue;
-    numbering_of_point_[i] = static_cast<std::uint32_t>(
-        numbering_of(data_->point_numbers[i], &InpNumbering::node_offset));
-  }
-  for (const InpKind& kind : kinds) {
-    for (std::size_t i = 0; i < kind.count; ++i) {
-      const auto numbering =
-          static_cast<std::uint32_t>(numbering_of_block(classes[kind.class_of[i]].block));
-      for (std::size_t k = 0; k < kind.width; ++k) {
-        std::uint32_t& of = numbering_of_point_[kind.of(i)[k]];
-        if (of == kOpen && classes[kind.class_of[i]].block != 0) of = numbering;
-      }
-    }
-  }
-  std::replace(numbering_of_point_.begin(), numbering_of_point_.end(), kOpen, std::uint32_t{0});
-  points_of_numbering_ =
-      group_by_key(numbering_of_point_, static_cast<std::uint32_t>(deck.numberings.size()));
-}
-
-void InpPlan::number_points() {
-  find_numberings_of_points();
-  point_numbers.resize(mesh_.point_count());
-  const bool given = data_ != nullptr && !data_->point_numbers.empty();
-  if (given) point_numbers = data_->point_numbers;
-  for (std::size_t n = 0; n < deck.numberings.size(); ++n) {
-    const InpNumbering& numbering = deck.numberings[n];
-    std::int64_t most = numbering.most_node;
-    std::vector<std::int64_t> known;
-    const bool is_alone = deck.numberings.size() == 1;
-    const std::span<const std::uint32_t> own = points_of(n);
-    const std::size_t count = is_alone ? point_numbers.size() : own.size();
-    for (std::size_t i = 0; i < count && given; ++i) {
-      std::int64_t& number = point_numbers[is_alone ? i : own[i]];
-      if (number != 0) number -= numbering.node_offset;
-      known.push_back(number);
-      most = std::max(most, number);
-    }
-    NewNumbers numbers = new_numbers(most, known);
-    for (std::size_t i = 0; i < count; ++i) {
-      std::int64_t& number = point_numbers[is_alone ? i : own[i]];
-      if (number == 0) number = numbers.next();
-    }
-  }
-}
-
-/// Elements of all kinds share their numbers.
-bool InpPlan::has_good_numbers() const {
-  if (has_deck_) return true;
-  std::vector<std::int64_t> all;
-  for (const InpKind& kind : kinds) {
-    if (is_triangle(kind) || kind.vtk_type == kVtkEdge || kind.count == 0) continue;
-    if (kind.given_numbers == nullptr || kind.given_numbers->empty()) return false;
-    all.insert(all.end(), kind.given_numbers->begin(), kind.given_numbers->end());
-  }
-  std::sort(all.begin(), all.end());
-  all.erase(all.begin(), std::upper_bound(all.begin(), all.end(), 0));
-  return std::adjacent_find(all.begin(), all.end()) == all.end();
-}
-
-void InpPlan::number_elements() {
-  const bool keeps = has_good_numbers();
-  std::vector<std::int64_t> most;
-  for (const InpNumbering& each : deck.numberings) most.push_back(keeps ? each.most_element : 0);
-  std::vector<std::vector<std::int64_t>> known(most.size());
-  for (InpKind& kind : kinds) {
-    kind.numbers.resize(kind.count);
-    const bool given = keeps && kind.given_numbers != nullptr && !kind.given_numbers->empty() &&
-                       (has_deck_ || kind.dimension == 3);
-    if (!given) continue;
-    kind.numbers = *kind.given_numbers;
-    for (std::int64_t& number : kind.numbers) {
-      const std::size_t n = number == 0 ? 0 : numbering_of(number, &InpNumbering::element_offset);
-      if (number != 0) number -= deck.numberings[n].element_offset;
-      known[n].push_back(number);
-      most[n] = std::max(most[n], number);
-    }
-  }
-  std::vector<NewNumbers> numbers;
-  for (std::size_t n = 0; n < most.size(); ++n) numbers.push_back(new_numbers(most[n], known[n]));
-  for (InpKind& kind : kinds) {
-    for (std::size_t i = 0; i < kind.count; ++i) {
-      const Label block = classes[kind.class_of[i]].block;
-      if (block == 0 || kind.numbers[i] != 0) continue;
-      kind.numbers[i] = numbers[numbering_of_block(block)].next();
-    }
-  }
 }
 
 }  // namespace tetmend::formats

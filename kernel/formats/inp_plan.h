@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "kernel/formats/inp_deck.h"
+#include "kernel/formats/inp_types.h"
 #include "kernel/formats/new_numbers.h"
 #include "kernel/formats/unique_names.h"
 #include "kernel/grouping.h"
@@ -40,6 +41,8 @@ struct InpKind {
 
   const std::uint32_t* of(std::size_t i) const { return vertices + i * stride; }
   Label label(std::size_t i) const { return labels[i * label_stride]; }
+  bool is_triangle() const { return vtk_type == kVtkTriangle || vtk_type == kVtkTriangle6; }
+  bool is_tet() const { return vtk_type == kVtkTet || vtk_type == kVtkTet10; }
 };
 
 /// A set of a deck, or a surface.
@@ -116,7 +119,10 @@ class InpPlan {
     return found == numbering_of_block_.end() ? 0 : found->second;
   }
   void find_numberings_of_points();
-  NewNumbers new_numbers(std::int64_t most, const std::vector<std::int64_t>& known) const;
+  NewNumbers new_numbers(std::int64_t most, std::span<const std::int64_t> known,
+                         std::span<const NumberRange> of_file) const;
+  std::vector<NumberRange> taken_in(std::size_t numbering,
+                                    std::vector<NumberRange> MeshData::*all) const;
   void add_missing_sets();
   void place_new(std::vector<InpPiece> pieces);
   std::size_t find_group(const InpGroupName& name) const;

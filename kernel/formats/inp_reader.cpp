@@ -21,6 +21,7 @@
 #include "kernel/formats/inp.h"
 #include "kernel/formats/inp_deck.h"
 #include "kernel/formats/inp_faces.h"
+#include "kernel/formats/inp_fields.h"
 #include "kernel/formats/inp_mesh.h"
 #include "kernel/formats/inp_parts.h"
 #include "kernel/formats/inp_pieces.h"

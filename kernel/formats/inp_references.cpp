@@ -13,6 +13,7 @@
 #include <fmt/format.h>
 
 #include "kernel/formats/field_pattern.h"
+#include "kernel/formats/inp_fields.h"
 
 namespace tetmend::formats {
 namespace {

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "kernel/formats/compression.h"
+#include "kernel/formats/inp_fields.h"
 
 namespace tetmend::formats {
 namespace {

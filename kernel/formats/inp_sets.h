@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "kernel/formats/inp_deck.h"
+#include "kernel/formats/inp_fields.h"
 #include "kernel/formats/inp_mesh.h"
 
 namespace tetmend::formats {

@@ -13,6 +13,7 @@
 
 #include "kernel/formats/included_path.h"
 #include "kernel/formats/inp.h"
+#include "kernel/formats/inp_fields.h"
 #include "kernel/formats/inp_lines.h"
 #include "kernel/formats/inp_plan.h"
 #include "kernel/formats/inp_types.h"

@@ -17,10 +17,16 @@
 
 namespace tetmend::formats {
 
-/// MeshData::variant of such a mesh. The first piece of its deck are deck_remarks(), the second says
-/// how wide fields are; the others follow the file, each with a letter of LsDynaPiece in front.
+/// MeshData::variant of such a mesh.
 inline constexpr std::string_view kLsDyna = "LS-DYNA";
-inline constexpr std::size_t kLsDynaPieces = 2;  ///< before those of the file
+
+/// The first pieces of its deck; the others follow the file, each with a letter of LsDynaPiece in front.
+enum LsDynaHead : std::size_t {
+  lsdyna_remarks,  ///< see deck_remarks()
+  lsdyna_fields,   ///< how wide they are: "8 16"
+  lsdyna_folder,   ///< that the deck lay in, if it names other files; else empty
+  kLsDynaPieces
+};
 
 enum LsDynaPiece : char {
   lsdyna_text = 'T',      ///< word for word
@@ -61,11 +67,29 @@ inline bool lsdyna_holds(int vtk_type) {
   }
 }
 
-/// The eight nodes of a solid that is no hexahedron, by the vertices of VTK: some stand there twice.
-inline constexpr std::array<std::uint8_t, 8> kLsDynaTet = {0, 1, 2, 3, 3, 3, 3, 3};
-inline constexpr std::array<std::uint8_t, 8> kLsDynaPyramid = {0, 1, 2, 3, 4, 4, 4, 4};
-inline constexpr std::array<std::uint8_t, 8> kLsDynaPrism = {0, 2, 5, 3, 1, 1, 4, 4};
-inline constexpr std::array<std::uint8_t, 8> kLsDynaHexahedron = {0, 1, 2, 3, 4, 5, 6, 7};
+inline constexpr std::size_t kLsDynaNodesOfSolid = 8;  ///< that is of first order
+
+/// The nodes of a solid, by the vertices of VTK: of one that is no hexahedron some stand there
+/// twice. Null: it has ten nodes, in VTK's order, or is no solid.
+inline const std::uint8_t* lsdyna_order(int vtk_type) {
+  using Order = std::array<std::uint8_t, kLsDynaNodesOfSolid>;
+  static constexpr Order kTet = {0, 1, 2, 3, 3, 3, 3, 3};
+  static constexpr Order kPyramid = {0, 1, 2, 3, 4, 4, 4, 4};
+  static constexpr Order kPrism = {0, 2, 5, 3, 1, 1, 4, 4};
+  static constexpr Order kHexahedron = {0, 1, 2, 3, 4, 5, 6, 7};
+  switch (vtk_type) {
+    case vtk_tet:
+      return kTet.data();
+    case vtk_pyramid:
+      return kPyramid.data();
+    case vtk_prism:
+      return kPrism.data();
+    case vtk_hexahedron:
+      return kHexahedron.data();
+    default:
+      return nullptr;
+  }
+}
 
 /// A title of one line that opens neither a keyword nor a comment.
 bool is_lsdyna_name(std::string_view name);
@@ -73,6 +97,9 @@ bool is_lsdyna_name(std::string_view name);
 /// Numbers of parts are labels. Points that lines which are kept word for word name become required
 /// vertices; shells and segments of sets are triangles, and stay in the deck. @throws Error
 MeshData read_lsdyna(const std::filesystem::path& file, TetPlace* question = nullptr);
+
+/// The deck and all that it includes; the deck alone where one of them cannot be read.
+std::vector<std::filesystem::path> lsdyna_files(const std::filesystem::path& deck);
 
 /// @throws Error
 void write_lsdyna(const std::filesystem::path& file, const MeshView& mesh);

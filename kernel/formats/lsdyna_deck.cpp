@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <cctype>
 #include <cstring>
+#include <system_error>
 
 #include <fmt/format.h>
 
+#include "kernel/formats/included_path.h"
 #include "kernel/formats/nastran_card.h"
 
 namespace tetmend::formats {
@@ -72,7 +74,7 @@ LsDynaWidths lsdyna_widths(std::string_view line, const LsDynaWidths& of_deck) {
 }
 
 void LsDynaDeck::fail(std::string_view where, std::string_view reason) const {
-  file_.fail_at_line(where.data(), reason);
+  files_.file_of(where.data()).fail_at_line(where.data(), reason);
 }
 
 std::string_view LsDynaDeck::next_line(const char*& at, const char* end) {
@@ -85,39 +87,148 @@ bool LsDynaDeck::is_comment(std::string_view line) {
   return line.starts_with('$') || trimmed_field(line).empty();
 }
 
-void LsDynaDeck::find_blocks() {
-  if (file_.size() == 0) {
-    file_.fail_at_line(file_.begin(), "the file is empty: expected *KEYWORD and *NODE");
+// ---- Files and keywords -------------------------------------------------------------------------
+
+LsDynaDeck::LsDynaDeck(const std::filesystem::path& deck) : files_(deck) {
+  const InputFile& file = files_.deck();
+  if (file.size() == 0) {
+    file.fail_at_line(file.begin(), "the file is empty: expected *KEYWORD and *NODE");
   }
-  const char* at = file_.begin();
-  LsDynaBlock block{{}, at, at, at};
-  while (at != file_.end()) {
-    const char* begin = at;
-    const std::string_view line = next_line(at, file_.end());
-    if (!line.starts_with('*')) continue;
-    block.end = begin;
-    blocks_.push_back(block);
-    std::string keyword(trimmed_field(line.substr(1)));
-    for (char& c : keyword) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
-    if (keyword.starts_with("KEYWORD")) read_options(keyword);
-    block = {keyword.substr(0, keyword.find_first_of(" \t")), begin, at, at};
-  }
-  block.end = file_.end();
-  blocks_.push_back(block);
-  // Options hold for the whole deck, wherever they stand: nodes are written with one width.
-  for (LsDynaBlock& each : blocks_) {
-    const std::string_view line(each.begin, static_cast<std::size_t>(each.content - each.begin));
-    each.widths = lsdyna_widths(line, widths_);
-  }
+  inclusions_.push_back({.is_inlined = true});
+  search_paths_.push_back(deck.parent_path());
+  const DeckFiles::Nested nested(files_, deck);
+  find_blocks(file, 0);
   if (blocks_.size() == 1) {
-    file_.fail_at_line(file_.begin(), "the file has no keywords: expected *KEYWORD and *NODE");
+    file.fail_at_line(file.begin(), "the file has no keywords: expected *KEYWORD and *NODE");
+  }
+  decide();
+  set_widths();
+}
+
+/// Folders of *INCLUDE_PATH hold for all names of a file.
+void LsDynaDeck::find_blocks(const InputFile& file, std::size_t inclusion) {
+  std::vector<LsDynaBlock> blocks = blocks_of(file, inclusion);
+  for (const LsDynaBlock& block : blocks) add_search_path(block);
+  for (LsDynaBlock& block : blocks) {
+    if (block.keyword == "INCLUDE") read_names(block);
+    blocks_.push_back(std::move(block));
+    const std::size_t at = blocks_.size() - 1;
+    for (std::size_t i = 0; i < blocks_[at].names.size(); ++i) {
+      const LsDynaInclude name = blocks_[at].names[i];
+      const std::filesystem::path path = path_of(name.name);
+      std::string reason;
+      const InputFile* included = files_.include(path, {name.begin, name.name}, reason);
+      if (included == nullptr) {
+        unread_.push_back(std::move(reason));
+        continue;
+      }
+      blocks_[at].names[i].inclusion = inclusions_.size();
+      inclusions_.push_back({.parent = inclusion, .place = name.begin});
+      const DeckFiles::Nested nested(files_, path);
+      find_blocks(*included, inclusions_.size() - 1);
+    }
   }
 }
 
-void LsDynaDeck::read_options(std::string_view line) {
-  if (line.find("LONG=Y") != std::string_view::npos) widths_ = kLsDynaLong;
-  if (line.find("I10=Y") != std::string_view::npos) widths_ = kLsDynaI10;
+/// Behind *END of a file that is included nothing is read.
+std::vector<LsDynaBlock> LsDynaDeck::blocks_of(const InputFile& file, std::size_t inclusion) {
+  std::vector<LsDynaBlock> blocks;
+  const char* at = file.begin();
+  LsDynaBlock block{{}, at, at, at, {}, inclusion};
+  while (at != file.end()) {
+    const char* begin = at;
+    const std::string_view line = next_line(at, file.end());
+    if (!line.starts_with('*')) continue;
+    block.end = begin;
+    blocks.push_back(std::move(block));
+    std::string keyword(trimmed_field(line.substr(1)));
+    for (char& c : keyword) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+    if (keyword.starts_with("KEYWORD")) read_options(keyword, inclusion);
+    block = {keyword.substr(0, keyword.find_first_of(" \t")), begin, at, at, {}, inclusion};
+    if (inclusion != 0 && block.keyword == "END") return blocks;
+  }
+  block.end = file.end();
+  blocks.push_back(std::move(block));
+  return blocks;
 }
+
+void LsDynaDeck::read_options(std::string_view line, std::size_t inclusion) {
+  std::optional<LsDynaWidths>& widths = inclusions_[inclusion].widths;
+  if (line.find("LONG=Y") != std::string_view::npos) widths = kLsDynaLong;
+  if (line.find("I10=Y") != std::string_view::npos) widths = kLsDynaI10;
+}
+
+void LsDynaDeck::read_names(LsDynaBlock& block) {
+  LsDynaInclude name{{}, nullptr, nullptr};
+  for (const char* at = block.content; at != block.end;) {
+    const std::string_view line = next_line(at, block.end);
+    if (is_comment(line)) continue;
+    if (name.begin == nullptr) name.begin = line.data();
+    name.end = at;
+    std::string_view text = trimmed_field(line);
+    const bool goes_on = text.ends_with(" +");
+    if (goes_on) text = trimmed_field(text.substr(0, text.size() - 1));
+    name.name += text;
+    if (goes_on) continue;
+    block.names.push_back(std::move(name));
+    name = {{}, nullptr, nullptr};
+  }
+}
+
+void LsDynaDeck::add_search_path(const LsDynaBlock& block) {
+  if (block.keyword != "INCLUDE_PATH" && block.keyword != "INCLUDE_PATH_RELATIVE") return;
+  for (const std::string_view line : lines(block)) {
+    search_paths_.push_back(included_path(search_paths_.front(), trimmed_field(line)));
+  }
+}
+
+/// Names are seen from the folder of the deck, in whichever file they stand.
+std::filesystem::path LsDynaDeck::path_of(std::string_view name) const {
+  std::error_code ignored;
+  for (const std::filesystem::path& folder : search_paths_) {
+    std::filesystem::path path = included_path(folder, name);
+    if (std::filesystem::exists(path, ignored)) return path;
+  }
+  return included_path(search_paths_.front(), name);
+}
+
+void LsDynaDeck::decide() {
+  for (const LsDynaBlock& block : blocks_) {
+    const bool is_of_mesh = is_nodes(block) || is_solids(block) ||
+                            is_list(block.keyword, "SET_SOLID") ||
+                            is_list(block.keyword, "SET_NODE");
+    for (std::size_t k = block.inclusion; is_of_mesh && !inclusions_[k].is_inlined;
+         k = inclusions_[k].parent) {
+      inclusions_[k].is_inlined = true;
+    }
+  }
+}
+
+/// Options hold for the whole file, wherever they stand: nodes are written with one width.
+void LsDynaDeck::set_widths() {
+  widths_ = inclusions_[0].widths.value_or(LsDynaWidths());
+  for (std::size_t k = 1; k < inclusions_.size(); ++k) {
+    Inclusion& own = inclusions_[k];
+    own.widths = own.widths.value_or(inclusions_[own.parent].widths.value_or(LsDynaWidths()));
+    if (!own.is_inlined || *own.widths == widths_) continue;
+    fail(std::string_view(own.place, 0),
+         "the file has other options in *KEYWORD: expected those of the file that includes it");
+  }
+  for (LsDynaBlock& each : blocks_) {
+    const std::string_view line(each.begin, static_cast<std::size_t>(each.content - each.begin));
+    each.widths = lsdyna_widths(line, inclusions_[each.inclusion].widths.value_or(widths_));
+  }
+}
+
+bool LsDynaDeck::is_list(std::string keyword, std::string_view set) {
+  for (const std::string_view option : {"_TITLE", "_GENERATE", "_LIST"}) {
+    const std::size_t at = keyword.find(option);
+    if (at != std::string::npos) keyword.erase(at, option.size());
+  }
+  return keyword == set;
+}
+
+// ---- Lines and fields ---------------------------------------------------------------------------
 
 void LsDynaDeck::split(std::string_view line, std::size_t first, std::size_t width,
                        std::size_t reals) {

@@ -11,19 +11,6 @@
 namespace tetmend::formats {
 namespace {
 
-const std::uint8_t* vertex_order_of(const ElementKind& kind) {
-  switch (kind.vtk_type) {
-    case vtk_tet:
-      return kLsDynaTet.data();
-    case vtk_pyramid:
-      return kLsDynaPyramid.data();
-    case vtk_prism:
-      return kLsDynaPrism.data();
-    default:
-      return nullptr;
-  }
-}
-
 /// By which of its nodes are the same.
 const ElementKind* kind_of_solid(const std::vector<std::int64_t>& n) {
   if (n.size() == 10) return element_kind(vtk_tet10);
@@ -32,9 +19,9 @@ const ElementKind* kind_of_solid(const std::vector<std::int64_t>& n) {
     return std::all_of(n.begin() + static_cast<std::ptrdiff_t>(from), n.end(),
                        [&](std::int64_t each) { return each == n[from]; });
   };
-  if (n.size() > kLsDynaHexahedron.size()) return nullptr;
+  if (n.size() > kLsDynaNodesOfSolid) return nullptr;
   if (same(3)) return element_kind(vtk_tet);
-  if (n.size() != 8) return nullptr;
+  if (n.size() != kLsDynaNodesOfSolid) return nullptr;
   if (same(4)) return element_kind(vtk_pyramid);
   if (n[4] == n[5] && n[6] == n[7]) return element_kind(vtk_prism);
   return element_kind(vtk_hexahedron);
@@ -42,8 +29,8 @@ const ElementKind* kind_of_solid(const std::vector<std::int64_t>& n) {
 
 }  // namespace
 
-LsDynaMesh::LsDynaMesh(const InputFile& file, TetPlace* question)
-    : LsDynaDeck(file), question_(question), sorter_(mesh_) {
+LsDynaMesh::LsDynaMesh(const std::filesystem::path& deck, TetPlace* question)
+    : LsDynaDeck(deck), question_(question), sorter_(mesh_) {
   for (const LsDynaBlock& block : blocks_) {
     use(block);
     if (is_nodes(block)) read_nodes(block);
@@ -67,18 +54,24 @@ void LsDynaMesh::refuse_other_places() const {
   };
   if (std::none_of(blocks_.begin(), blocks_.end(), is_nodes)) {
     const auto include = find("INCLUDE");
-    const auto files = include == blocks_.end() ? std::vector<std::string_view>() : lines(*include);
-    if (files.empty()) file_.fail_at_line(file_.end(), "the file has no nodes: expected *NODE");
-    fail(files[0],
-         fmt::format("the file has no nodes: *INCLUDE is not followed, but the mesh of {} "
-                     "can be improved by itself",
-                     in_quotes(trimmed_field(files[0]))));
+    const auto names = include == blocks_.end() ? std::vector<std::string_view>() : lines(*include);
+    if (names.empty()) {
+      const InputFile& deck = files_.deck();
+      deck.fail_at_line(deck.end(), "the file has no nodes: expected *NODE");
+    }
+    if (!unread_.empty()) {
+      fail(names[0], fmt::format("there are no nodes, and of the files of *INCLUDE not all are "
+                                 "read: {}",
+                                 unread_.front()));
+    }
+    fail(names[0],
+         fmt::format("there are no nodes, and *{} is not followed: expected *NODE or *INCLUDE",
+                     include->keyword));
   }
   const auto others = find("ELEMENT_SOLID");
   if (others != blocks_.end() && std::none_of(blocks_.begin(), blocks_.end(), is_solids)) {
-    file_.fail_at_line(others->begin, fmt::format("solids of *{} cannot be read: expected "
-                                                  "*ELEMENT_SOLID",
-                                                  others->keyword));
+    fail({others->begin, 1},
+         fmt::format("solids of *{} cannot be read: expected *ELEMENT_SOLID", others->keyword));
   }
 }
 
@@ -92,9 +85,8 @@ NumberIndex LsDynaMesh::index_of(const std::vector<std::int64_t>& numbers,
                                  const std::vector<const char*>& places,
                                  std::string_view what) const {
   return {numbers, [&](std::uint32_t i) {
-            file_.fail_at_line(
-                places[i],
-                fmt::format("the number '{}' of {} appears for the second time", numbers[i], what));
+            fail({places[i], 1}, fmt::format("the number '{}' of {} appears for the second time",
+                                             numbers[i], what));
           }};
 }
 
@@ -196,14 +188,14 @@ void LsDynaMesh::add_solid(std::string_view line, std::vector<std::int64_t>& num
   row.kind = kind_of_solid(listed);
   if (row.kind == nullptr)
     fail(line, "the element is none of 4, 5, 6, 8 or 10 nodes: of higher order?");
-  const std::uint8_t* order = vertex_order_of(*row.kind);
+  const std::uint8_t* order = lsdyna_order(row.kind->vtk_type);
   for (std::size_t k = 0; k < listed.size(); ++k) {
     const std::size_t to = order == nullptr ? k : order[k];
     if (to < row.kind->width) row.vertices[to] = node(listed[k], line);
   }
   sorter_.add(row, true);
   if (is_last_asked_for(question_, mesh_, row.kind->vtk_type))
-    question_->place = file_.line_place(row.place);
+    question_->place = files_.file_of(row.place).line_place(row.place);
   elements_.push_back(last_place(mesh_, *row.kind));
   solid_numbers_.push_back(row.number);
   solid_places_.push_back(row.place);

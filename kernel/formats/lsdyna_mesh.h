@@ -21,11 +21,9 @@ namespace tetmend::formats {
 class LsDynaMesh : protected LsDynaDeck {
  public:
   /// @throws Error for a file without nodes
-  LsDynaMesh(const InputFile& file, TetPlace* question);
+  LsDynaMesh(const std::filesystem::path& deck, TetPlace* question);
 
  protected:
-  static bool is_nodes(const LsDynaBlock& block) { return block.keyword == "NODE"; }
-  static bool is_solids(const LsDynaBlock& block) { return block.keyword == "ELEMENT_SOLID"; }
   /// With a line break at the end, if they are not empty.
   static std::string lines_of(std::string_view text);
 

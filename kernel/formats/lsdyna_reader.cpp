@@ -12,6 +12,7 @@
 
 #include <fmt/format.h>
 
+#include "kernel/error.h"
 #include "kernel/formats/element_rows.h"
 #include "kernel/formats/element_sets.h"
 #include "kernel/formats/input_file.h"
@@ -26,19 +27,25 @@ constexpr std::string_view kGenerate = "_GENERATE";
 
 class LsDynaReader : LsDynaMesh {
  public:
-  LsDynaReader(const InputFile& file, TetPlace* question)
-      : LsDynaMesh(file, question), solid_count_(elements_.size()) {}
+  LsDynaReader(const std::filesystem::path& deck, TetPlace* question)
+      : LsDynaMesh(deck, question), path_(deck), solid_count_(elements_.size()) {}
 
   MeshData read() {
-    if (std::none_of(blocks_.begin(), blocks_.end(),
-                     [](const LsDynaBlock& block) { return block.keyword == "END"; })) {
+    if (std::none_of(blocks_.begin(), blocks_.end(), [](const LsDynaBlock& block) {
+          return block.keyword == "END" && block.inclusion == 0;
+        })) {
       mesh_.notes.emplace_back("the deck has no *END: is the file complete?");
     }
-    mesh_.deck = {"", fmt::format("{} {}", widths_.integer, widths_.real)};
+    for (const std::string& reason : unread_) {
+      mesh_.notes.push_back(fmt::format(
+          "what *INCLUDE names is not read, so what it says of nodes is not known: {}", reason));
+    }
+    mesh_.deck.resize(kLsDynaPieces);
+    mesh_.deck[lsdyna_fields] = fmt::format("{} {}", widths_.integer, widths_.real);
     for (const LsDynaBlock& block : blocks_) read_block(block);
     name_parts();
     finish_sets();
-    mesh_.deck[0] = pins_.require_points(file_, nodes_, "keywords", mesh_);
+    mesh_.deck[lsdyna_remarks] = pins_.require_points(files_.all(), nodes_, "keywords", mesh_);
     for (std::string& line : points_of_deck_)
       mesh_.deck.push_back(char{lsdyna_point} + std::move(line));
     mesh_.variant = kLsDyna;
@@ -49,7 +56,7 @@ class LsDynaReader : LsDynaMesh {
   // ---- All else -----------------------------------------------------------------------------------
 
   void keep(std::string_view text) {
-    if (text.empty()) return;
+    if (text.empty() || !is_written_) return;
     if (mesh_.deck.size() <= kLsDynaPieces || mesh_.deck.back()[0] != lsdyna_text) {
       mesh_.deck.emplace_back(1, lsdyna_text);
     }
@@ -58,14 +65,18 @@ class LsDynaReader : LsDynaMesh {
 
   void read_block(const LsDynaBlock& block) {
     use(block);
+    is_written_ = is_inlined(block.inclusion);
     const std::string_view whole(block.begin, static_cast<std::size_t>(block.end - block.begin));
     const std::string& keyword = block.keyword;
     if (is_nodes(block)) return place(block, lsdyna_nodes, nodes_at_);
     if (is_solids(block)) return place(block, lsdyna_elements, solids_at_);
     if (is_list(keyword, "SET_SOLID")) return read_solid_set(block);
     if (is_list(keyword, "SET_NODE")) return read_node_set(block);
-    keep(whole);
-    if (keyword.starts_with("INCLUDE")) {
+    if (keyword == "INCLUDE") return keep_includes(block);
+    const bool is_of_included = block.inclusion != 0 && keyword == "KEYWORD";
+    keep(is_of_included ? whole.substr(static_cast<std::size_t>(block.content - block.begin))
+                        : whole);
+    if (keyword.starts_with("INCLUDE") && !keyword.starts_with("INCLUDE_PATH")) {
       mesh_.notes.push_back(
           fmt::format("*{} is not followed: what its file says of nodes is not known", keyword));
     }
@@ -76,6 +87,27 @@ class LsDynaReader : LsDynaMesh {
     if (keyword == "PART") read_parts(block);
     if (starts_with_any(keyword, {"ELEMENT_SHELL", "SET_SEGMENT"})) read_faces(block);
     if (!names_no_nodes(keyword) && !keyword.empty()) pin(block);
+  }
+
+  /// Without the names of files whose lines are lines of the deck now.
+  void keep_includes(const LsDynaBlock& block) {
+    const auto stays = [this](const LsDynaInclude& name) {
+      return name.inclusion == 0 || !is_inlined(name.inclusion);
+    };
+    const auto text = [](const char* begin, const char* end) {
+      return std::string_view(begin, static_cast<std::size_t>(end - begin));
+    };
+    if (is_written_ && std::any_of(block.names.begin(), block.names.end(), stays)) {
+      keep(text(block.begin, block.content));
+      mesh_.deck[lsdyna_folder] =
+          std::filesystem::absolute(path_).parent_path().lexically_normal().string();
+    }
+    const char* at = block.content;
+    for (const LsDynaInclude& name : block.names) {
+      keep(text(at, stays(name) ? name.end : name.begin));
+      at = name.end;
+    }
+    keep(text(at, block.end));
   }
 
   void note_names_solids(const std::string& keyword) {
@@ -131,8 +163,7 @@ class LsDynaReader : LsDynaMesh {
       lines_of_head = 2;
     }
     if (head.members.size() < lines_of_head) {
-      file_.fail_at_line(block.begin,
-                         fmt::format("*{} has no number: expected one", block.keyword));
+      fail({block.begin, 1}, fmt::format("*{} has no number: expected one", block.keyword));
     }
     const std::string_view card = head.members[lines_of_head - 1];
     split(card, now().card, now().card);
@@ -174,16 +205,6 @@ class LsDynaReader : LsDynaMesh {
     }
     note_lost_members(lost, head.set, "solids");
     place_set(block, std::move(head), lsdyna_set);
-  }
-
-  /// A plain list of members, or ranges of them.
-  static bool is_list(std::string keyword, std::string_view set) {
-    for (const std::string_view option :
-         std::initializer_list<std::string_view>{"_TITLE", kGenerate, "_LIST"}) {
-      const std::size_t at = keyword.find(option);
-      if (at != std::string::npos) keyword.erase(at, option.size());
-    }
-    return keyword == set;
   }
 
   /// Where it fills a volume it is written anew; other members stay.
@@ -252,7 +273,7 @@ class LsDynaReader : LsDynaMesh {
         const std::size_t before = elements_.size();
         head.set.elements.push_back(faces_.add(row, sorter_, mesh_, elements_));
         if (elements_.size() > before && is_last_asked_for(question_, mesh_, row.kind->vtk_type))
-          question_->place = file_.line_place(line.data());
+          question_->place = files_.file_of(line.data()).line_place(line.data());
       } else {
         ++lost;
       }
@@ -345,6 +366,8 @@ class LsDynaReader : LsDynaMesh {
     std::size_t set;
   };
 
+  std::filesystem::path path_;
+  bool is_written_ = true;   // what is read now stands in the deck that is written
   std::size_t solid_count_;  // behind them faces come
   FacesOnce faces_;
   std::size_t nodes_at_ = kNowhere;  // piece of the deck
@@ -358,8 +381,17 @@ class LsDynaReader : LsDynaMesh {
 }  // namespace
 
 MeshData read_lsdyna(const std::filesystem::path& file, TetPlace* question) {
-  const InputFile input(file);
-  return LsDynaReader(input, question).read();
+  return LsDynaReader(file, question).read();
+}
+
+std::vector<std::filesystem::path> lsdyna_files(const std::filesystem::path& deck) {
+  try {
+    std::vector<std::filesystem::path> files = LsDynaDeck(deck).files();
+    files.front() = deck;  // of standard input, too
+    return files;
+  } catch (const Error&) {
+    return {deck};
+  }
 }
 
 }  // namespace tetmend::formats

@@ -14,6 +14,7 @@
 
 #include "kernel/formats/element_rows.h"
 #include "kernel/formats/element_sets.h"
+#include "kernel/formats/included_path.h"
 #include "kernel/formats/label_names.h"
 #include "kernel/formats/lsdyna.h"
 #include "kernel/formats/lsdyna_fields.h"
@@ -27,25 +28,10 @@ constexpr std::size_t kFieldsOfCard = 8;  // of sets
 
 constexpr std::array<std::int64_t, 3> kNumberLimits = {99'999'999, INT32_MAX, INT64_MAX};
 
-const std::uint8_t* order_of_solid(int vtk_type) {
-  switch (vtk_type) {
-    case vtk_tet:
-      return kLsDynaTet.data();
-    case vtk_pyramid:
-      return kLsDynaPyramid.data();
-    case vtk_prism:
-      return kLsDynaPrism.data();
-    case vtk_hexahedron:
-      return kLsDynaHexahedron.data();
-    default:
-      return nullptr;  // ten nodes
-  }
-}
-
 constexpr Label kMostPart = 99999999;  // what a field of eight characters holds
 
 bool is_solid(const ElementList& list) {
-  return list.kind.vtk_type == vtk_tet10 || order_of_solid(list.kind.vtk_type) != nullptr;
+  return list.kind.vtk_type == vtk_tet10 || lsdyna_order(list.kind.vtk_type) != nullptr;
 }
 
 class LsDynaWriter {
@@ -64,7 +50,7 @@ class LsDynaWriter {
     const MeshData* data = mesh.data();
     if (data == nullptr || data->variant != kLsDyna || data->deck.size() < kLsDynaPieces) return;
     deck_ = &data->deck;
-    const std::string& widths = (*deck_)[1];
+    const std::string& widths = (*deck_)[lsdyna_fields];
     const char* end = widths.data() + widths.size();
     const char* next = std::from_chars(widths.data(), end, widths_.integer).ptr;
     if (next != end) std::from_chars(next + 1, end, widths_.real);
@@ -166,9 +152,9 @@ class LsDynaWriter {
     LsDynaLine line{buffer, !fits(widths_.integer)};
     line.put(elements_[k][i], widths_.integer);
     line.put(part_of_.at(list.label(i)), widths_.integer);
-    const std::uint8_t* order = order_of_solid(list.kind.vtk_type);
+    const std::uint8_t* order = lsdyna_order(list.kind.vtk_type);
     if (order == nullptr) line.end();
-    const std::size_t nodes = order == nullptr ? list.kind.width : kLsDynaHexahedron.size();
+    const std::size_t nodes = order == nullptr ? list.kind.width : kLsDynaNodesOfSolid;
     for (std::size_t n = 0; n < nodes; ++n) {
       line.put(points_[list.vertices(i)[order == nullptr ? n : order[n]]], widths_.integer);
     }
@@ -347,9 +333,10 @@ void write_lsdyna(const std::filesystem::path& file, const MeshView& mesh) {
   LsDynaWriter(file, mesh).write();
 }
 
-std::vector<std::string> not_in_lsdyna(const std::filesystem::path&, const MeshData& mesh) {
+std::vector<std::string> not_in_lsdyna(const std::filesystem::path& file, const MeshData& mesh) {
   const bool has_deck = mesh.variant == kLsDyna && mesh.deck.size() >= kLsDynaPieces;
-  const std::size_t room = has_deck && mesh.deck[1].ends_with("20") ? 20 : LsDynaWidths().real;
+  const std::size_t room =
+      has_deck && mesh.deck[lsdyna_fields].ends_with("20") ? 20 : LsDynaWidths().real;
   std::size_t rounded = 0;
   for (const Point& point : mesh.points) {
     for (int axis = 0; axis < 3; ++axis) rounded += lsdyna_rounds(point[axis], room) ? 1 : 0;
@@ -364,6 +351,10 @@ std::vector<std::string> not_in_lsdyna(const std::filesystem::path&, const MeshD
   if (too_long > 0) {
     notes.push_back(fmt::format(
         "{} labels have more than eight digits: their parts get other numbers", too_long));
+  }
+  if (!has_deck) return notes;
+  for (std::string& note : included_files_stay(file, mesh.deck[lsdyna_folder], "*INCLUDE")) {
+    notes.push_back(std::move(note));
   }
   return notes;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Writes MED files.
 #include <algorithm>
+#include <array>
 #include <map>
 #include <memory>
 #include <span>
@@ -14,9 +15,11 @@
 #include <fmt/format.h>
 
 #include "kernel/formats/element_rows.h"
+#include "kernel/formats/element_sets.h"
 #include "kernel/formats/hdf5_file.h"
 #include "kernel/formats/med.h"
 #include "kernel/formats/med_families.h"
+#include "kernel/formats/new_numbers.h"
 #include "kernel/formats/output_file.h"
 #include "kernel/formats/unique_names.h"
 
@@ -28,17 +31,7 @@ constexpr std::int32_t kMedReal = 6;
 constexpr std::int32_t kMedInteger32 = 24;
 constexpr std::int32_t kMedInteger64 = 26;
 
-/// New numbers above those that are there, all of which are different.
-class FillNumbers {
- public:
-  void take(const std::vector<std::int64_t>& numbers) {
-    for (const std::int64_t number : numbers) most_ = std::max(most_, number);
-  }
-  std::int64_t operator()(std::int64_t number) { return number > 0 ? number : ++most_; }
-
- private:
-  std::int64_t most_ = 0;
-};
+constexpr std::array<std::int64_t, 2> kMedLimits = {INT32_MAX, INT64_MAX};
 
 class Writer {
  public:
@@ -126,10 +119,7 @@ class Writer {
     for (std::size_t i = 0; i < count; ++i)
       point_places_[i] = families_.place_of({0, false, 0, mesh_.point_label(i), chains[i]});
     if (mesh_.data() != nullptr && mesh_.data()->point_numbers.size() == count) {
-      std::vector<std::int64_t> numbers = mesh_.data()->point_numbers;
-      FillNumbers fill;
-      fill.take(numbers);
-      for (std::int64_t& number : numbers) number = fill(number);
+      std::vector<std::int64_t> numbers = written_point_numbers(mesh_, kMedLimits);
       if (count > 0) write_list(path + "/NUM", integers(std::move(numbers)), count);
     }
   }
@@ -160,15 +150,16 @@ class Writer {
     if (blocks_.empty()) return;
     file_->group(step_ + "/MAI");
     file_->set(step_ + "/MAI", "CGT", 1);
-    FillNumbers fill;
     bool with_numbers = true;
+    std::vector<std::int64_t> known;  // elements of two types may have the same
     for (const ElementList& list : lists_.all()) {
       with_numbers = with_numbers && list.numbers != nullptr;
-      if (with_numbers) fill.take(*list.numbers);
+      if (with_numbers) known.insert(known.end(), list.numbers->begin(), list.numbers->end());
     }
+    NewNumbers next = numbers_beside(known, lists_.taken_numbers(), kMedLimits);
     for (Block& block : blocks_) {
       write_block(block);
-      if (with_numbers) write_numbers(block, fill);
+      if (with_numbers) write_numbers(block, next);
     }
   }
 
@@ -205,11 +196,11 @@ class Writer {
     }
   }
 
-  void write_numbers(const Block& block, FillNumbers& fill) {
+  void write_numbers(const Block& block, NewNumbers& next) {
     std::vector<std::int64_t> numbers;
-    for (const ElementList* list : block.lists) {
-      for (const std::int64_t number : *list->numbers) numbers.push_back(fill(number));
-    }
+    for (const ElementList* list : block.lists)
+      numbers.insert(numbers.end(), list->numbers->begin(), list->numbers->end());
+    complete(numbers, next);
     write_list(block.path(step_) + "/NUM", integers(std::move(numbers)), block.count);
   }
 

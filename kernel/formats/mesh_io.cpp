@@ -32,6 +32,7 @@
 #include "kernel/formats/nastran.h"
 #include "kernel/formats/nastran_numbers.h"
 #include "kernel/formats/netgen.h"
+#include "kernel/formats/new_numbers.h"
 #include "kernel/formats/packed_file.h"
 #include "kernel/formats/room.h"
 #include "kernel/formats/standard_stream.h"
@@ -314,6 +315,7 @@ std::span<const MeshFormat> mesh_formats() {
 MeshData read_mesh(const std::filesystem::path& file, const std::string& label_array) {
   try {
     MeshData mesh = find_codec(file).read(file, {nullptr, label_array});
+    formats::note_taken_numbers(mesh);
     const auto dropped = formats::drop_degenerate(mesh, [&](int dimension, std::size_t number) {
       formats::TetPlace question{number, {}, dimension};
       if (formats::is_standard_stream(file)) return question.place;  // it is read once
@@ -383,6 +385,7 @@ std::vector<std::filesystem::path> source_files(const std::filesystem::path& fil
   const std::string extension = format_extension(file);
   if (extension == ".inp") return formats::inp_files(file);
   if (extension == ".bdf" || extension == ".nas") return formats::nastran_files(file);
+  if (extension == ".k" || extension == ".key") return formats::lsdyna_files(file);
   return mesh_files(file);
 }
 

@@ -32,7 +32,6 @@ enum NastranPiece : std::size_t {
   nastran_elements,  ///< likewise, those of elements
   nastran_folder,    ///< that the deck lay in, if it names other files; else empty
   nastran_zero,      ///< what elements of label 0 have as property: "0", or a blank field
-  nastran_greatest,  ///< the greatest numbers of points and elements that there were: "27 48"
   nastran_remarks,   ///< the last, if there are any: see deck_remarks(), each with a line break
   nastran_pieces = nastran_remarks
 };

@@ -70,7 +70,6 @@ class Reader : private NastranCardReader {
       mesh_.notes.push_back(
           fmt::format("comments behind the fields of points and elements are not kept: {}", lost));
     }
-    mesh_.deck[nastran_greatest] = greatest_numbers();
     mesh_.variant = kNastran;
     return std::move(mesh_);
   }
@@ -229,12 +228,6 @@ class Reader : private NastranCardReader {
              fmt::format("'{}' is not the number of a point: expected one of GRID", number));
       }
     }
-  }
-
-  std::string greatest_numbers() const {
-    std::int64_t point = 0;
-    for (const std::int64_t number : mesh_.point_numbers) point = std::max(point, number);
-    return fmt::format("{} {}", point, elements_.empty() ? 0 : elements_.back().number);
   }
 
   /// Solvers want numbers that no two elements share; we need it of those of one kind.

@@ -3,12 +3,9 @@
 #include "kernel/formats/nastran_sources.h"
 
 #include <algorithm>
-#include <functional>
 
 #include <fmt/format.h>
 
-#include "kernel/error.h"
-#include "kernel/formats/compression.h"
 #include "kernel/formats/included_path.h"
 #include "kernel/formats/nastran_card.h"
 
@@ -48,23 +45,14 @@ bool is_broken(std::string_view statement) {
 
 }  // namespace
 
-NastranSources::NastranSources(const std::filesystem::path& deck) {
-  folder_ = deck.parent_path();
+NastranSources::NastranSources(const std::filesystem::path& deck)
+    : files_(deck), folder_(deck.parent_path()) {
   inclusions_.push_back({0, true, true, true});
-  const InputFile& file = *open(deck, {});
-  const Bulk bulk = find_bulk(file);
+  const Bulk bulk = find_bulk(files_.deck());
   bulk_begin_ = bulk.begin;
   bulk_end_ = bulk.end;
   read(bulk, deck, 0);
   decide();
-}
-
-const InputFile& NastranSources::file_of(const char* place) const {
-  for (const auto& [number, file] : files_) {
-    const std::less_equal<> before;
-    if (before(file->begin(), place) && before(place, file->end())) return *file;
-  }
-  return deck();
 }
 
 /// From behind BEGIN BULK, or the beginning, to ENDDATA or another BEGIN, or the end.
@@ -99,31 +87,9 @@ NastranSources::Bulk NastranSources::find_bulk(const InputFile& file) {
   return bulk;
 }
 
-/// A file that is included again is not read again.
-const InputFile* NastranSources::open(const std::filesystem::path& path,
-                                      std::string_view statement) {
-  const auto [at, is_new] = number_of_.try_emplace(place_of_included(path), files_.size());
-  if (is_new) {
-    try {
-      auto file = std::make_unique<InputFile>(path);
-      size_of_files_ += file->size_of_file();
-      opened_.push_back(path);
-      files_.emplace(at->second, std::move(file));
-    } catch (const Error& error) {
-      number_of_.erase(at);
-      if (statement.empty()) throw;
-      notes_.push_back(fmt::format("what {} includes is not read: {}",
-                                   in_quotes(trimmed_field(statement)), error.what()));
-      return nullptr;
-    }
-  }
-  return files_.at(at->second).get();
-}
-
 void NastranSources::read(const Bulk& bulk, const std::filesystem::path& path,
                           std::size_t inclusion) {
-  const std::filesystem::path canonical = place_of_included(path);
-  open_.insert(canonical);
+  const DeckFiles::Nested nested(files_, path);
   if (bulk.may_stray) {
     strays_.add(bulk.begin, bulk.end);
     has_strays_ = !strays_.is_empty();
@@ -149,7 +115,6 @@ void NastranSources::read(const Bulk& bulk, const std::filesystem::path& path,
     include({statement, static_cast<std::size_t>(begin - statement)}, path, inclusion);
   }
   if (begin != bulk.end) stretches_.push_back({begin, bulk.end, inclusion, 0});
-  open_.erase(canonical);
 }
 
 void NastranSources::include(std::string_view statement, const std::filesystem::path& from,
@@ -158,21 +123,14 @@ void NastranSources::include(std::string_view statement, const std::filesystem::
   inclusions_.push_back({inclusion, from.parent_path() == folder_, false, true});
   stretches_.push_back({statement.data(), statement.data() + statement.size(), inclusion, number});
   const std::filesystem::path path = included_path(from.parent_path(), name_of(statement));
-  const auto fail = [&](std::string_view reason) {
-    file_of(statement.data()).fail_at_line(statement.data(), reason);
-  };
-  if (open_.contains(place_of_included(path))) {
-    fail(fmt::format("{} includes itself: expected another file",
-                     in_quotes(trimmed_field(statement))));
-  }
-  constexpr std::size_t kDeepest = 1000;
-  if (open_.size() > kDeepest) fail("more than 1,000 files include each other");
-  const InputFile* file = open(path, statement);
+  std::string reason;
+  const InputFile* file =
+      files_.include(path, {statement.data(), trimmed_field(statement)}, reason);
   inclusions_.back().is_there = file != nullptr;
-  if (file == nullptr) return;
-  included_ += file->size();
-  if (is_bomb(size_of_files_, included_)) {
-    fail("the same files are included again and again, hundreds of times their size");
+  if (file == nullptr) {
+    notes_.push_back(fmt::format("what {} includes is not read: {}",
+                                 in_quotes(trimmed_field(statement)), reason));
+    return;
   }
   const Bulk bulk = find_bulk(*file);
   if (bulk.end != file->end()) {

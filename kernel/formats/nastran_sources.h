@@ -4,15 +4,12 @@
 
 #include <cstddef>
 #include <filesystem>
-#include <map>
-#include <memory>
-#include <set>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "kernel/formats/input_file.h"
+#include "kernel/formats/deck_files.h"
 #include "kernel/formats/nastran_card.h"
 
 namespace tetmend::formats {
@@ -40,7 +37,7 @@ class NastranSources {
   const std::vector<std::string>& notes() const { return notes_; }
 
   /// That were opened, the deck first.
-  const std::vector<std::filesystem::path>& files() const { return opened_; }
+  const std::vector<std::filesystem::path>& files() const { return files_.paths(); }
   NastranLines lines(const NastranStretch& stretch) const {
     return lines_from(stretch.begin, stretch.end);
   }
@@ -48,9 +45,9 @@ class NastranSources {
     return {begin, end, has_strays_ ? &strays_ : nullptr};
   }
   bool is_stray(const char* line) const { return has_strays_ && strays_.is_stray(line); }
-  const InputFile& deck() const { return *files_.begin()->second; }
+  const InputFile& deck() const { return files_.deck(); }
   /// The file that a place is in.
-  const InputFile& file_of(const char* place) const;
+  const InputFile& file_of(const char* place) const { return files_.file_of(place); }
 
  private:
   struct Inclusion {
@@ -70,19 +67,13 @@ class NastranSources {
   void read(const Bulk& bulk, const std::filesystem::path& path, std::size_t inclusion);
   void include(std::string_view statement, const std::filesystem::path& from,
                std::size_t inclusion);
-  const InputFile* open(const std::filesystem::path& path, std::string_view statement);
   void decide();
 
-  std::map<std::size_t, std::unique_ptr<InputFile>> files_;  // in the order they were opened
-  std::map<std::filesystem::path, std::size_t> number_of_;   // of a file
-  std::vector<std::filesystem::path> opened_;
-  std::set<std::filesystem::path> open_;  // one in the other
+  DeckFiles files_;
   std::vector<NastranStretch> stretches_;
   std::vector<Inclusion> inclusions_;
   std::vector<std::string> notes_;
   std::filesystem::path folder_;
-  std::size_t size_of_files_ = 0;
-  std::size_t included_ = 0;  // bytes, as often as they are
   NastranStrays strays_;
   bool has_strays_ = false;
   const char* bulk_begin_ = nullptr;

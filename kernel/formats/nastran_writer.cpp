@@ -114,16 +114,6 @@ class Writer {
       points_of_deck_ = WholeCards((*deck_)[nastran_points]);
       elements_of_deck_ = WholeCards((*deck_)[nastran_elements]);
       largest_ = largest_of_cards((*deck_)[nastran_cards]);
-      // New ones do not get numbers of those that are gone: other files may name these.
-      const std::string& greatest = (*deck_)[nastran_greatest];
-      const std::size_t blank = greatest.find(' ');
-      std::int64_t number = 0;
-      if (nastran_integer(greatest.substr(0, blank), number)) {
-        largest_.point = std::max(largest_.point, number);
-      }
-      if (blank != std::string::npos && nastran_integer(greatest.substr(blank + 1), number)) {
-        largest_.element = std::max(largest_.element, number);
-      }
     }
   }
 
@@ -156,51 +146,49 @@ class Writer {
   }
 
   /// Those of Nastran have at most eight digits; others are read as well.
-  NewNumbers new_numbers(std::int64_t most, const std::vector<std::int64_t>& known) const {
-    constexpr std::array<std::int64_t, 3> kLimits = {99'999'999, INT32_MAX, INT64_MAX};
-    return NewNumbers(most, kLimits, [this, &known] {
-      std::vector<NewNumbers::Range> taken;
-      for (const std::int64_t number : known) taken.emplace_back(number, number);
+  NewNumbers new_numbers(std::int64_t most, std::span<const std::int64_t> known,
+                         std::span<const NumberRange> of_file) const {
+    static constexpr std::array<std::int64_t, 3> kLimits = {99'999'999, INT32_MAX, INT64_MAX};
+    return numbers_beside(known, of_file, kLimits, most, [this] {
+      std::vector<NumberRange> taken;
       if (deck_ != nullptr) add_nastran_numbers((*deck_)[nastran_cards], taken);
       return taken;
     });
   }
 
   void number_points() {
-    std::int64_t most = largest_.point;
     std::vector<std::int64_t> known;
-    if (mesh_.data() != nullptr) known = points_ = mesh_.data()->point_numbers;
-    for (const std::int64_t number : points_) most = std::max(most, number);
-    points_.resize(mesh_.point_count(), 0);
-    NewNumbers numbers = new_numbers(most, known);
-    for (std::int64_t& number : points_) {
-      if (number <= 0) number = numbers.next();
+    std::span<const NumberRange> of_file;
+    if (mesh_.data() != nullptr) {
+      known = points_ = mesh_.data()->point_numbers;
+      of_file = mesh_.data()->taken_point_numbers;
     }
+    points_.resize(mesh_.point_count(), 0);
+    NewNumbers next = new_numbers(largest_.point, known, of_file);
+    complete(points_, next);
   }
 
   /// Elements of all kinds share their numbers.
   void number_elements() {
-    std::int64_t most = largest_.element;
     std::vector<std::int64_t> known;
+    std::span<const NumberRange> of_file = lists_.taken_numbers();
     for (const ElementList& list : lists_.all()) {
       auto& numbers = elements_.emplace_back();
       if (list.numbers != nullptr) numbers = *list.numbers;
-      for (const std::int64_t number : numbers) {
-        if (number > 0) known.push_back(number);
-      }
+      numbers.resize(list.count, 0);
+      std::copy_if(numbers.begin(), numbers.end(), std::back_inserter(known),
+                   [](std::int64_t number) { return number > 0; });
     }
     std::sort(known.begin(), known.end());
     // Those of a deck differ among the elements of each kind.
     const bool differ = was_deck_ || std::adjacent_find(known.begin(), known.end()) == known.end();
-    if (differ && !known.empty()) most = std::max(most, known.back());
-    if (!differ) known.clear();
-    NewNumbers new_ones = new_numbers(most, known);
-    for (std::size_t k = 0; k < elements_.size(); ++k) {
-      elements_[k].resize(lists_.all()[k].count, 0);
-      for (std::int64_t& number : elements_[k]) {
-        if (number <= 0 || !differ) number = new_ones.next();
-      }
+    if (!differ) {
+      known.clear();
+      of_file = {};
+      for (auto& numbers : elements_) std::fill(numbers.begin(), numbers.end(), 0);
     }
+    NewNumbers next = new_numbers(largest_.element, known, of_file);
+    for (auto& numbers : elements_) complete(numbers, next);
   }
 
   /// Properties count from 1: other labels get the next numbers. In a deck 0 is a blank field.

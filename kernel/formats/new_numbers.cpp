@@ -37,6 +37,66 @@ void NewNumbers::look_between() {
   last_ = 0;
 }
 
+NewNumbers numbers_beside(std::span<const std::int64_t> known, std::span<const NumberRange> of_file,
+                          std::span<const std::int64_t> limits, std::int64_t most,
+                          NewNumbers::Taken more) {
+  for (const std::int64_t number : known) most = std::max(most, number);
+  if (!of_file.empty()) most = std::max(most, of_file.back().second);
+  return {most, limits, [known, of_file, more = std::move(more)] {
+            std::vector<NumberRange> taken;
+            if (more) taken = more();
+            for (const std::int64_t number : known) taken.emplace_back(number, number);
+            taken.insert(taken.end(), of_file.begin(), of_file.end());
+            return taken;
+          }};
+}
+
+void complete(std::vector<std::int64_t>& numbers, NewNumbers& next) {
+  for (std::int64_t& number : numbers) {
+    if (number <= 0) number = next.next();
+  }
+}
+
+namespace {
+
+void add_ranges(const std::vector<std::int64_t>& numbers, std::vector<NumberRange>& ranges) {
+  for (const std::int64_t number : numbers) {
+    if (number <= 0) continue;
+    if (!ranges.empty() && ranges.back().second == number - 1) {
+      ranges.back().second = number;
+    } else {
+      ranges.emplace_back(number, number);
+    }
+  }
+}
+
+/// In ascending order, and as few as may be.
+void merge(std::vector<NumberRange>& ranges) {
+  if (!std::is_sorted(ranges.begin(), ranges.end())) std::sort(ranges.begin(), ranges.end());
+  std::size_t count = 0;
+  for (const NumberRange& range : ranges) {
+    if (count > 0 && range.first - 1 <= ranges[count - 1].second) {
+      ranges[count - 1].second = std::max(ranges[count - 1].second, range.second);
+    } else {
+      ranges[count++] = range;
+    }
+  }
+  ranges.resize(count);
+  ranges.shrink_to_fit();
+}
+
+}  // namespace
+
+void note_taken_numbers(MeshData& mesh) {
+  add_ranges(mesh.point_numbers, mesh.taken_point_numbers);
+  merge(mesh.taken_point_numbers);
+  std::vector<NumberRange>& of_elements = mesh.taken_element_numbers;
+  for (const auto* numbers : {&mesh.tet_numbers, &mesh.triangle_numbers, &mesh.edge_numbers})
+    add_ranges(*numbers, of_elements);
+  for (const OtherElements& others : mesh.other_elements) add_ranges(others.numbers, of_elements);
+  merge(of_elements);
+}
+
 namespace {
 
 /// False if the word is no number that a point or element may have.
@@ -71,7 +131,7 @@ bool has_parameter(std::string_view keyword_line, std::string_view name) {
 
 }  // namespace
 
-void add_inp_numbers(std::string_view text, std::vector<NewNumbers::Range>& ranges) {
+void add_inp_numbers(std::string_view text, std::vector<NumberRange>& ranges) {
   bool is_keyword = false;
   bool gives_ranges = false;
   while (!text.empty()) {
@@ -91,7 +151,7 @@ void add_inp_numbers(std::string_view text, std::vector<NewNumbers::Range>& rang
   }
 }
 
-void add_nastran_numbers(std::string_view cards, std::vector<NewNumbers::Range>& ranges) {
+void add_nastran_numbers(std::string_view cards, std::vector<NumberRange>& ranges) {
   NastranLines lines(cards.data(), cards.data() + cards.size());
   NastranCardText card;
   while (!lines.at_end()) {

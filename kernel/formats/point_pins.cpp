@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "kernel/formats/deck_files.h"
 #include "kernel/formats/pin_remarks.h"
 
 namespace tetmend::formats {
@@ -22,8 +23,9 @@ std::vector<std::pair<std::size_t, std::size_t>> merged_ranges(
   return all;
 }
 
-std::string PointPins::require_points(const InputFile& file, const NumberIndex& nodes,
-                                      std::string_view what, MeshData& mesh) const {
+std::string PointPins::require_points(std::span<const InputFile* const> files,
+                                      const NumberIndex& nodes, std::string_view what,
+                                      MeshData& mesh) const {
   std::vector<bool> is_required(mesh.points.size(), false);
   std::vector<PinRemark> remarks;
   for (const auto& [who, pins] : pins_) {
@@ -32,13 +34,19 @@ std::string PointPins::require_points(const InputFile& file, const NumberIndex& 
       count += end - begin;
       for (std::size_t i = begin; i < end; ++i) is_required[nodes.ascending()[i]] = true;
     }
-    if (count > 0) remarks.push_back({&file, pins.first, pins.lines, who, count});
+    if (count == 0) continue;
+    remarks.push_back({&file_of_place(files, pins.first), pins.first, pins.lines, who, count});
   }
   for (std::uint32_t i = 0; i < is_required.size(); ++i) {
     if (is_required[i]) mesh.required_vertices.push_back(i);
   }
-  std::sort(remarks.begin(), remarks.end(),
-            [](const PinRemark& a, const PinRemark& b) { return a.place < b.place; });
+  std::sort(remarks.begin(), remarks.end(), [&](const PinRemark& a, const PinRemark& b) {
+    const auto place = [&](const PinRemark& remark) {
+      const auto file = std::find(files.begin(), files.end(), remark.file);
+      return std::pair(file - files.begin(), remark.place - remark.file->begin());
+    };
+    return place(a) < place(b);
+  });
   return pin_remarks_text(remarks, what);
 }
 

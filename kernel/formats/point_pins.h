@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -37,9 +38,9 @@ class PointPins {
     return pins;
   }
 
-  /// Adds the points to `mesh` as required vertices. @return remarks, see pin_remarks_text()
-  std::string require_points(const InputFile& file, const NumberIndex& nodes, std::string_view what,
-                             MeshData& mesh) const;
+  /// Adds the points to `mesh` as required vertices. The places are in these files. @return remarks, see pin_remarks_text()
+  std::string require_points(std::span<const InputFile* const> files, const NumberIndex& nodes,
+                             std::string_view what, MeshData& mesh) const;
 
  private:
   std::map<std::string, Pins> pins_;

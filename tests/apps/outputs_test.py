@@ -111,6 +111,8 @@ def files_of_meshes_are_not_outputs():
         run("convert", mesh, folder / "m" / "m_0.vtu")
         run("convert", mesh, folder / "nodes.inp")
         (folder / "deck.inp").write_text("*INCLUDE, INPUT=nodes.inp\n")
+        run("convert", mesh, folder / "nodes.k")
+        (folder / "deck.k").write_text("*KEYWORD\n*INCLUDE\nnodes.k\n*END\n")
         (folder / "l.vtk").symlink_to("in.mesh")
         (folder / "q").symlink_to("p")
         shutil.copy(folder / "p.pvtu", folder / "q.pvtu")
@@ -148,6 +150,7 @@ def files_of_meshes_are_not_outputs():
             ("improve", folder / "deck.inp", "-o", folder / "o.inp", "--trace", folder / "nodes.inp"),
             ("improve", folder / "deck.inp", "-o", folder / "nodes.inp"),
             ("convert", folder / "deck.inp", folder / "nodes.inp"),
+            ("improve", folder / "deck.k", "-o", folder / "nodes.k"),
             ("trace", folder / "run.trace", "--history", f"tet:1@{folder / 'c.mesh'}", "-o", folder / "c.mesh"),
             ("trace", folder / "run.trace", "--history", f"tet:1@{folder / 'deck.inp'}", "-o", folder / "nodes.inp"),
             ("trace", folder / "lesson.trace", "--html", "-o", folder / "lesson.json"),

@@ -79,6 +79,8 @@ TEST_CASE("a linear field is exact on the improved mesh, other data come from th
   before.point_data = {{"field", 2, field}, {"number", 1, numbers}};
   before.tet_data = {{"height", 1, height}};
   before.label_array = "mat_id";
+  before.taken_point_numbers = {{1, 3}, {7, 9000}};
+  before.taken_element_numbers = {{2, 70000}};
   Mesh mesh = MeshAccess::make(before);
   const Result result = improve(mesh);
   const MeshData& now = MeshAccess::data(mesh);
@@ -99,6 +101,8 @@ TEST_CASE("a linear field is exact on the improved mesh, other data come from th
   CHECK(result.carried[2].on == "tets");
   CHECK(result.carried[2].integral_error < 0.01);
   CHECK(now.label_array == "mat_id");
+  CHECK(now.taken_point_numbers == before.taken_point_numbers);
+  CHECK(now.taken_element_numbers == before.taken_element_numbers);
   for (std::size_t t = 0; t < before.tets.size(); ++t) {
     const std::uint32_t to = result.tet_map[t];
     if (to == kGone) continue;

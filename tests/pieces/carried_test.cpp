@@ -8,6 +8,8 @@
 #include <functional>
 #include <initializer_list>
 #include <iterator>
+#include <map>
+#include <set>
 
 #include <doctest/doctest.h>
 #include <tetmend/io.h>
@@ -143,6 +145,34 @@ TEST_CASE("arrays, groups and parts are carried by ranks and by tasks as by one 
       CHECK(files.result.touched_tets > 0);
       CHECK(result.touched_tets == files.result.touched_tets);
     });
+  }
+}
+
+TEST_CASE("the number of a tet that is gone is given to no other tet, in pieces, too") {
+  const auto tets_of = [](const std::filesystem::path& file) {
+    const MeshData data = read_mesh(file);
+    std::map<std::int64_t, std::set<std::int64_t>> tets;  // numbers of their corners
+    for (std::size_t i = 0; i < data.tets.size(); ++i) {
+      for (const std::uint32_t v : data.tets[i].vertices)
+        tets[data.tet_numbers[i]].insert(data.point_numbers[v]);
+    }
+    return tets;
+  };
+  for (const char* ending : {".bdf", ".k"}) {
+    CAPTURE(ending);
+    const Files files(lattice(5), ending, {});
+    check_all_ways(files, {}, {2});
+    const auto before = tets_of(files.in);
+    std::size_t new_ones = 0;
+    for (const auto& [number, corners] : tets_of(files.out)) {
+      const auto old = before.find(number);
+      if (old == before.end()) {
+        ++new_ones;
+      } else if (old->second != corners) {
+        CHECK(number == 0);
+      }
+    }
+    CHECK(new_ones > 0);
   }
 }
 

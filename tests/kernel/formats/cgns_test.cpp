@@ -178,6 +178,16 @@ TEST_CASE("trees of CGNS that make no sense are refused with the node and the re
   }
 }
 
+TEST_CASE(
+    "a file of HDF5 without a node that is labelled a zone is no CGNS, and the reason says so") {
+  if (!formats::has_hdf5()) return;
+  const TempFolder folder;
+  write_mesh(folder / "a.med", awkward_mesh());
+  std::filesystem::rename(folder / "a.med", folder / "a.cgns");
+  CHECK(
+      error_of_reading(folder / "a.cgns").starts_with("a.cgns: '/': no node of the file has the "));
+}
+
 TEST_CASE("groups that are called like nodes of a zone are written to CGNS under other names") {
   if (!formats::has_hdf5()) return;
   const TempFolder folder;

@@ -189,6 +189,89 @@ TEST_CASE("segments of LS-DYNA whose nodes are in another file stay in the deck 
   CHECK(test::read_text(folder / "b.k").find("99        13") != std::string::npos);
 }
 
+TEST_CASE(
+    "what a deck of LS-DYNA includes is read; files with something of the mesh are taken in") {
+  const TempFolder folder;
+  std::filesystem::create_directory(folder / "sub");
+  const std::string all = deck_text();
+  const std::size_t nodes = all.find("*NODE");
+  const std::size_t boundary = all.find("*BOUNDARY");
+  const std::size_t solids = all.find("*ELEMENT_SOLID");
+  write_text(folder / "sub" / "mesh.k", "$ the mesh\n*KEYWORD\n" +
+                                            all.substr(nodes, boundary - nodes) +
+                                            "*INCLUDE\nsub/solids.k\n*END\n*NODE\n99,0,0,0\n");
+  write_text(folder / "sub" / "solids.k", all.substr(solids));
+  write_text(folder / "held.k", "$ held\n" + all.substr(boundary, solids - boundary));
+  write_text(folder / "deck.k", "*KEYWORD\n*INCLUDE\n$ two files\nsub\\me +\n  sh.k\nheld.k\n" +
+                                    all.substr(all.find("*PART"), nodes - all.find("*PART")) +
+                                    "*END\n");
+  const MeshData mesh = read_mesh(folder / "deck.k");
+  const MeshData whole = read_deck(folder, all);
+  CHECK(mesh.notes.empty());
+  CHECK(mesh.points == whole.points);
+  CHECK(mesh.tets == whole.tets);
+  CHECK(mesh.groups == whole.groups);
+  CHECK(mesh.required_vertices == whole.required_vertices);
+  const std::vector<std::string> remarks = deck_remarks(mesh);
+  REQUIRE(remarks.size() == 4);
+  CHECK(remarks[0].ends_with("mesh.k:8: *NODE with constraints keeps 1 point where it is"));
+  CHECK(remarks[3].ends_with("held.k:2: *BOUNDARY_SPC_NODE keeps 1 point where it is"));
+  CHECK(source_files(folder / "deck.k").size() == 4);
+  CHECK(not_written(folder / "b.k", mesh).empty());
+  const auto elsewhere = not_written(folder / "sub" / "b.k", mesh);
+  REQUIRE(elsewhere.size() == 1);
+  CHECK(elsewhere[0].starts_with("the files of *INCLUDE stay in "));
+  write_mesh(folder / "b.k", mesh);
+  const std::string written = test::read_text(folder / "b.k");
+  CHECK(written.starts_with("*KEYWORD\n*INCLUDE\n$ two files\nheld.k\n$ the mesh\n*NODE\n"));
+  CHECK(written.find("*BOUNDARY") == std::string::npos);
+  CHECK(written.find("*INCLUDE", 12) == std::string::npos);
+  CHECK(written.find("*END") == written.size() - 5);
+  const MeshData again = read_mesh(folder / "b.k");
+  CHECK(again.tets == mesh.tets);
+  CHECK(again.groups == mesh.groups);
+  CHECK(again.required_vertices == mesh.required_vertices);
+  CHECK(locate_tet(folder / "deck.k", 1).ends_with("sub/solids.k:3"));
+}
+
+TEST_CASE("names of files of LS-DYNA are looked for in the folders of *INCLUDE_PATH, too") {
+  const TempFolder folder;
+  std::filesystem::create_directories(folder / "parts" / "inner");
+  write_text(folder / "parts" / "inner" / "mesh.k", deck_text());
+  write_text(folder / "a.k",
+             "*KEYWORD\n*INCLUDE\nmesh.k\n*INCLUDE_PATH_RELATIVE\nnone\nparts\\inner\n*END\n");
+  const MeshData mesh = read_mesh(folder / "a.k");
+  CHECK(mesh.tets.size() == 2);
+  write_mesh(folder / "b.k", mesh);
+  const std::string written = test::read_text(folder / "b.k");
+  CHECK(written.find("*INCLUDE\n") == std::string::npos);
+  CHECK(written.find("*INCLUDE_PATH_RELATIVE\nnone\nparts\\inner\n") != std::string::npos);
+}
+
+TEST_CASE("a file that a deck of LS-DYNA includes and that cannot be read stays, with a note") {
+  const TempFolder folder;
+  const MeshData mesh =
+      read_deck(folder, edited(deck_text(), "*TITLE", "*INCLUDE\ngone.k\n*TITLE"));
+  REQUIRE(mesh.notes.size() == 1);
+  CHECK(mesh.notes[0].starts_with("what *INCLUDE names is not read, so what it says of nodes is "));
+  CHECK(mesh.notes[0].find("gone.k") != std::string::npos);
+  write_mesh(folder / "b.k", mesh);
+  CHECK(test::read_text(folder / "b.k").find("*INCLUDE\ngone.k\n*TITLE\n") != std::string::npos);
+}
+
+TEST_CASE(
+    "a file of LS-DYNA with wider fields is read where it stays, and refused where it cannot") {
+  const TempFolder folder;
+  write_text(folder / "held.k",
+             "*KEYWORD LONG=Y\n*BOUNDARY_SPC_NODE\n"
+             "                  12                   0\n");
+  const std::string held = edited(deck_text(), "*BOUNDARY_SPC_NODE\n        12",
+                                  "*INCLUDE\nheld.k\n*CONTROL_SOMETHING\n        12");
+  CHECK(read_deck(folder, held).required_vertices == std::vector<std::uint32_t>{0, 1, 2, 3, 4});
+  write_text(folder / "held.k", "*KEYWORD LONG=Y\n*NODE\n");
+  CHECK(error_of_reading(folder / "a.k").starts_with("a.k:20: the file has other options"));
+}
+
 TEST_CASE("a set of nodes of LS-DYNA that fills a volume pins none, and is written anew") {
   const TempFolder folder;
   std::string text = edited(deck_text(), "       7       0", "");
@@ -405,7 +488,12 @@ TEST_CASE("a bad deck of LS-DYNA is refused with line and reason") {
        "23: ", "the element is none of 4, 5, 6, 8 or 10 nodes"},
       {"solid twice", edited(good, "       2       5\n", "       1       5\n"),
        "23: ", "the number '1' of a solid appears for the second time"},
-      {"include", "*KEYWORD\n*INCLUDE\nmesh.k\n*END\n", "3: ", "the mesh of 'mesh.k'"},
+      {"include", "*KEYWORD\n*INCLUDE\nmesh.k\n*END\n",
+       "3: ", "there are no nodes, and of the files of *INCLUDE not all are read: "},
+      {"include of options", "*KEYWORD\n*INCLUDE_TRANSFORM\nmesh.k\n*END\n",
+       "3: ", "there are no nodes, and *INCLUDE_TRANSFORM is not followed"},
+      {"itself", edited(good, "*END", "*INCLUDE\n./a.k\n*END"),
+       "37: ", "'./a.k' includes itself: expected another file"},
       {"other solids", edited(good, "*ELEMENT_SOLID\n", "*ELEMENT_SOLID_ORTHO\n"),
        "21: ", "solids of *ELEMENT_SOLID_ORTHO cannot be read"},
   };

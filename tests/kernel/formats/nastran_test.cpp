@@ -110,9 +110,10 @@ TEST_CASE("what is no mesh in a deck of Nastran stays word for word, and its poi
       "GRID,50,,1,0,0,2\n",
       "CTRIA3  15      4       10      20      40      45.\n",
       "",
-      "",
-      "7000 17"};
+      ""};
   CHECK(deck_of(mesh) == deck);
+  CHECK(mesh.taken_point_numbers.back() == NumberRange(7000, 7000));
+  CHECK(mesh.taken_element_numbers.back().second == 17);
   // 60 to 80 for SPC1, 90 for FORCE. The coordinates of 50 are no constraint.
   CHECK(mesh.required_vertices == std::vector<std::uint32_t>{5, 6, 7, 8});
   const std::string file = (folder / "a.bdf").string();
