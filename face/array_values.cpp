@@ -26,12 +26,14 @@ struct ArrayValues::Places {
 ArrayValues::ArrayValues(const MeshData& data) : data_(data) {}
 ArrayValues::~ArrayValues() = default;
 
-PlacedValues::At ArrayValues::find(std::string_view name) const {
+TetValues::Of ArrayValues::find(std::string_view name) const {
   for (const DataArray& array : data_.tet_data) {
     if (array.name != name || array.components != 1 || data_.tets.empty()) continue;
     std::call_once(has_places_, [&] { places_ = std::make_shared<const Places>(data_); });
-    return [&array, places = places_](const Point& place) {
-      const std::uint32_t tet = places->locator.find_tet(place, {});
+    return [&array, places = places_](const TetMesh& mesh, TetHandle t) {
+      const auto& [a, b, c, d] = mesh.vertices(t);
+      const Point middle = (mesh.point(a) + mesh.point(b) + mesh.point(c) + mesh.point(d)) / 4;
+      const std::uint32_t tet = places->locator.find_tet(middle, {});
       return std::visit([tet](const auto& values) { return static_cast<double>(values[tet]); },
                         array.values);
     };

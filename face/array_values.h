@@ -13,16 +13,16 @@
 
 namespace tetmend::face {
 
-/// Those with one number for each tet. A place has the number of the tet that held it before the run, as
-/// the arrays of the improved mesh will.
-class ArrayValues final : public PlacedValues {
+/// Those with one number for each tet. A tet has the number of the one that held its centroid before the
+/// run, as in the arrays of the improved mesh.
+class ArrayValues final : public TetValues {
  public:
   /// @param data what the run began with, in lengths that are worked with; must outlive this
   explicit ArrayValues(const MeshData& data);
   ~ArrayValues() override;
 
   /// Cost: linear for the first name that is there.
-  At find(std::string_view name) const override;
+  Of find(std::string_view name) const override;
   std::vector<std::string> names() const override;
 
  private:

@@ -2,7 +2,7 @@
 // The record of one change of a mesh, and the journal that holds them.
 #pragma once
 
-#include <any>
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -67,8 +67,6 @@ struct TETMEND_API Journal {
   std::vector<TetQuality> qualities;
   std::vector<VertexFlags> flagged;
   std::vector<RemovedVertex> removed_vertices;  // one for each remove_vertex
-  // Of removed tets and vertices, if the mesh has properties.
-  std::vector<std::vector<std::any>> property_values;
 
   bool empty() const { return edits.empty(); }
   void clear() {
@@ -79,7 +77,6 @@ struct TETMEND_API Journal {
     qualities.clear();
     flagged.clear();
     removed_vertices.clear();
-    property_values.clear();
   }
 };
 

@@ -108,7 +108,6 @@ void MeshBuilder::place_vertices(bool sorted) {
   resize_with_room(mesh_.vertex_flags_, n);
   resize_with_room(mesh_.vertex_dates_, n);
   mesh_.vertex_count_ = n;
-  mesh_.vertex_properties_.resize(n);
   mesh_.point_labels_ = std::move(data_.point_labels);
 }
 
@@ -142,7 +141,6 @@ Grouping MeshBuilder::place_tets(bool sorted) {
   resize_with_room(mesh_.quality_, n);
   resize_with_room(mesh_.tet_flags_, n);
   mesh_.tet_count_ = n;
-  mesh_.tet_properties_.resize(n);
   return groups;
 }
 

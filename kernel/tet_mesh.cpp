@@ -125,22 +125,22 @@ void TetMesh::set_bounds(const Bounds& bounds) {
   bounds_ = bounds.under(standard_);
 }
 
-void TetMesh::collect_garbage() {
-  std::vector<std::uint32_t> kept_vertices;
-  std::vector<std::uint32_t> kept_tets;
+TetMesh::KeptSlots TetMesh::collect_garbage() {
+  KeptSlots kept;
   for (std::uint32_t v = 0; v < points_.size(); ++v) {
-    if (!is_deleted(VertexHandle(v))) kept_vertices.push_back(v);
+    if (!is_deleted(VertexHandle(v))) kept.vertices.push_back(v);
   }
   for (std::uint32_t t = 0; t < cells_.size(); ++t) {
-    if (!is_deleted(TetHandle(t))) kept_tets.push_back(t);
+    if (!is_deleted(TetHandle(t))) kept.tets.push_back(t);
   }
-  reorder(kept_vertices, kept_tets);
+  reorder(kept.vertices, kept.tets);
   // A copy made while workers were in territories has not got their counts.
-  vertex_count_ = kept_vertices.size();
-  tet_count_ = kept_tets.size();
+  vertex_count_ = kept.vertices.size();
+  tet_count_ = kept.tets.size();
+  return kept;
 }
 
-void TetMesh::sort_spatially() {
+TetMesh::KeptSlots TetMesh::sort_spatially() {
   std::vector<std::uint32_t> vertex_order;
   vertex_order.reserve(vertex_count_);
   for (std::uint32_t v = 0; v < points_.size(); ++v) {
@@ -162,6 +162,7 @@ void TetMesh::sort_spatially() {
   std::vector<std::uint32_t> tet_order = group_by_key(first, none + 1).order;
   tet_order.resize(tet_count_);
   reorder(vertex_order, tet_order);
+  return {std::move(vertex_order), std::move(tet_order)};
 }
 
 namespace {
@@ -195,8 +196,6 @@ void TetMesh::reorder(std::span<const std::uint32_t> vertex_order,
   gather(vertex_flags_, vertex_order);
   gather(vertex_dates_, vertex_order);
   gather(vertex_origin_, vertex_order);
-  tet_properties_.gather(tet_order);
-  vertex_properties_.gather(vertex_order);
 
   for (Cell& cell : cells_) {
     if (!cell.vertices[0].is_valid()) continue;
@@ -233,7 +232,6 @@ void make_room(std::size_t size, std::vector<T>&... values) {
 void TetMesh::grow_tets(std::size_t count) {
   const std::size_t size = cells_.size() + count;
   make_room(size, cells_, quality_, label_, tet_flags_);
-  tet_properties_.resize(size);
   cells_.resize(size);
   quality_.resize(size, kDeletedQuality);
   label_.resize(size, Label{0});
@@ -243,7 +241,6 @@ void TetMesh::grow_tets(std::size_t count) {
 void TetMesh::grow_vertices(std::size_t count) {
   const std::size_t size = points_.size() + count;
   make_room(size, points_, vertex_tet_, vertex_flags_, vertex_dates_, vertex_origin_);
-  vertex_properties_.resize(size);
   if (SurfaceGuard* guard = surface_guard()) guard->resize(size);
   points_.resize(size, Point::Zero());
   vertex_tet_.resize(size);
@@ -257,7 +254,6 @@ void TetMesh::drop_tet_slot() noexcept {
   quality_.pop_back();
   label_.pop_back();
   tet_flags_.pop_back();
-  tet_properties_.shrink(cells_.size());
 }
 
 void TetMesh::drop_vertex_slot() noexcept {
@@ -266,7 +262,6 @@ void TetMesh::drop_vertex_slot() noexcept {
   vertex_flags_.pop_back();
   vertex_dates_.pop_back();
   vertex_origin_.pop_back();
-  vertex_properties_.shrink(points_.size());
   if (SurfaceGuard* guard = surface_guard()) guard->resize(points_.size());
 }
 

@@ -19,9 +19,9 @@
 #include <tetmend/statistics.h>
 
 #include "kernel/bounds.h"
+#include "kernel/error.h"
 #include "kernel/handles.h"
 #include "kernel/mesh_data.h"
-#include "kernel/properties.h"
 #include "kernel/quality.h"
 #include "kernel/scale.h"
 #include "kernel/surface_guard.h"
@@ -230,19 +230,17 @@ class TETMEND_API TetMesh {
   /// without a guard.
   std::span<const std::uint32_t> surface_origins() const { return surface_origin_; }
 
-  // --- properties --------------------------------------------------------------------------------
-  PropertyTable<TetHandle>& tet_properties() { return tet_properties_; }
-  const PropertyTable<TetHandle>& tet_properties() const { return tet_properties_; }
-  PropertyTable<VertexHandle>& vertex_properties() { return vertex_properties_; }
-  const PropertyTable<VertexHandle>& vertex_properties() const { return vertex_properties_; }
-
   /// Freezes the live tets for which `is_frozen` is true, and thaws all others. No transaction
   /// removes a frozen tet or moves one of its vertices. Files do not hold this. Returns the number
   /// of frozen tets. Precondition: no transaction is open. Cost: linear.
   std::size_t freeze(const std::function<bool(TetHandle)>& is_frozen);
+  /// The slots that a renumbering has kept, by their numbers before, in their order now.
+  struct KeptSlots {
+    std::vector<std::uint32_t> vertices, tets;
+  };
   /// Removes deleted slots; the order of the others stays. All handles, workspaces and queues made
   /// before become invalid.
-  void collect_garbage();
+  KeptSlots collect_garbage();
   /// Moves the vertices and tets, in their order, to the slots given (ascending, one for each of
   /// them). The slots between them are deleted ones. So a rebuilt mesh gets the handle numbers of
   /// the one it shows. Handles made before become invalid.
@@ -251,9 +249,9 @@ class TETMEND_API TetMesh {
   /// Sorts vertices and tets along a space-filling curve, so that neighbours in space are
   /// neighbours in memory. to_data() still lists the vertices of the file in their order. Handles
   /// made before become invalid. Removes deleted slots.
-  void sort_spatially();
+  KeptSlots sort_spatially();
 
-  /// Bytes held for each tet slot and each vertex slot, properties not counted.
+  /// Bytes held for each tet slot and each vertex slot.
   static constexpr std::size_t bytes_per_tet() {
     return sizeof(Cell) + sizeof(Quality) + sizeof(Label) + sizeof(TetFlags);
   }
@@ -263,7 +261,7 @@ class TETMEND_API TetMesh {
   }
 
   /// Same slots, bit for bit: coordinates, connectivity, qualities, flags and dates, and guards that
-  /// know the same. Properties are not compared.
+  /// know the same.
   friend bool operator==(const TetMesh& a, const TetMesh& b);
 
  private:
@@ -350,9 +348,6 @@ class TETMEND_API TetMesh {
   std::vector<std::uint32_t> named_edge_origin_, named_edge_line_;  // by named edge
   std::vector<std::uint32_t> patch_triangle_;  // by patch: a surface triangle of it
   std::vector<std::uint32_t> line_edge_;       // by line: a named edge of it, or kNone
-
-  PropertyTable<TetHandle> tet_properties_;
-  PropertyTable<VertexHandle> vertex_properties_;
 };
 
 /// An error in the topology of a file's contents; names the tet so that the reader can add its

@@ -9,13 +9,11 @@
 #include "kernel/transaction.h"
 
 #include <algorithm>
-#include <any>
 #include <cassert>
 #include <utility>
 
 #include "kernel/exact_orientation.h"
 #include "kernel/make_room.h"
-#include "kernel/property_values.h"
 #include "kernel/star.h"
 #include "kernel/territory_check.h"
 #include "kernel/workspace.h"
@@ -284,31 +282,12 @@ EditResult Transaction::replace_cavity(std::span<const TetHandle> old,
   if (!mark_constrained_edges(created)) return EditResult::constrained;
 
   workspace_.new_flags_.clear();
-  PropertyValues properties = copy_properties(old, created);
   Edit edit;
   edit.kind = Edit::Kind::replace_cavity;
   edit.appended = make_room(old.size(), created.size());
   const Label label = mesh_.label(old[0]);
-  write_cavity(old, created, {&label, 1}, edit, properties);
+  write_cavity(old, created, {&label, 1}, edit);
   return EditResult::made;
-}
-
-Transaction::PropertyValues Transaction::copy_properties(
-    std::span<const TetHandle> old, std::span<const TetVertices> created) const {
-  PropertyValues values;
-  if (const auto& table = mesh_.tet_properties_; !table.empty()) {
-    for (const TetHandle t : old) values.removed.push_back(table.save(t));
-    for (std::size_t k = 0; k < created.size(); ++k) values.created.push_back(table.initial());
-  }
-  if (const auto& table = mesh_.vertex_properties_; !table.empty()) {
-    IndexSet seen;
-    for (const TetHandle t : old) {
-      for (const VertexHandle v : mesh_.vertices(t)) {
-        if (seen.insert(v.index())) values.vertices.emplace_back(v, table.save(v));
-      }
-    }
-  }
-  return values;
 }
 
 /// For all that replacing a cavity and undoing it write. Returns how many slots the mesh grew by.
@@ -325,9 +304,6 @@ std::uint32_t Transaction::make_room(std::size_t old, std::size_t created) {
   make_room_for(vertices, journal.removed_vertices);
   make_room_for(vertices, free_vertices);
   if (old > created) make_room_for(old - created, free_tets);
-  if (!mesh_.tet_properties_.empty() || !mesh_.vertex_properties_.empty()) {
-    make_room_for(old + vertices, journal.property_values);
-  }
   if (created > old) {
     drop_taken(free_tets, created - old, mesh_.tet_slots(),
                [this](TetHandle t) { return mesh_.is_deleted(t); });
@@ -340,22 +316,20 @@ std::uint32_t Transaction::make_room(std::size_t old, std::size_t created) {
 
 /// @param labels one for each new tet, or one for all
 void Transaction::write_cavity(std::span<const TetHandle> old, std::span<const TetVertices> created,
-                               std::span<const Label> labels, Edit edit,
-                               PropertyValues& properties) noexcept {
-  save_removed(old, edit, properties);
+                               std::span<const Label> labels, Edit edit) noexcept {
+  save_removed(old, edit);
   take_slots(old, created.size(), edit);
-  fill_slots(created, labels, edit, properties);
+  fill_slots(created, labels, edit);
   link_vertices(created, edit);
   set_flags(edit);
   workspace_.tet_count(mesh_) += created.size();
   workspace_.tet_count(mesh_) -= old.size();
   note(edit);
-  remove_isolated(edit, properties);
+  remove_isolated(edit);
 }
 
 /// Copies the old tets into the journal and unlinks their vertices.
-void Transaction::save_removed(std::span<const TetHandle> old, Edit& edit,
-                               PropertyValues& properties) {
+void Transaction::save_removed(std::span<const TetHandle> old, Edit& edit) {
   Journal& journal = workspace_.journal_;
   edit.removed_begin = size32(journal.removed);
   edit.links_begin = size32(journal.links);
@@ -372,11 +346,9 @@ void Transaction::save_removed(std::span<const TetHandle> old, Edit& edit,
   }
   edit.removed_end = size32(journal.removed);
   edit.links_end = size32(journal.links);
-  for (auto& values : properties.removed) journal.property_values.push_back(std::move(values));
 }
 
-/// Deleted slots all look the same, so that undo can bring them back. Their properties are nobody's
-/// until they are used again.
+/// Deleted slots all look the same, so that undo can bring them back.
 void Transaction::clear_slot(TetHandle t) {
   const std::uint32_t i = t.index();
   mesh_.cells_[i] = TetMesh::Cell();
@@ -418,7 +390,7 @@ void Transaction::take_slots(std::span<const TetHandle> old, std::size_t count, 
 }
 
 void Transaction::fill_slots(std::span<const TetVertices> created, std::span<const Label> labels,
-                             const Edit& edit, PropertyValues& properties) {
+                             const Edit& edit) {
   const TetHandle* slots = workspace_.journal_.created.data() + edit.created_begin;
   for (std::size_t k = 0; k < created.size(); ++k) {
     const std::uint32_t i = slots[k].index();
@@ -427,9 +399,6 @@ void Transaction::fill_slots(std::span<const TetVertices> created, std::span<con
     mesh_.quality_[i] = workspace_.batch_.quality(k);
     mesh_.label_[i] = labels[labels.size() == 1 ? 0 : k];
     mesh_.tet_flags_[i] = workspace_.created_flags_[k];
-    if (!properties.created.empty()) {
-      mesh_.tet_properties_.restore(slots[k], std::move(properties.created[k]));
-    }
     for (unsigned f = 0; f < 4; ++f) {
       const Workspace::Gluing& glued = workspace_.gluing_[4 * k + f];
       if (glued.local) {
@@ -464,7 +433,7 @@ void Transaction::link_vertices(std::span<const TetVertices> created, Edit& edit
 }
 
 /// Deletes the vertices that lost their last tet.
-void Transaction::remove_isolated(const Edit& replaced, PropertyValues& properties) {
+void Transaction::remove_isolated(const Edit& replaced) {
   Journal& journal = workspace_.journal_;
   for (std::uint32_t i = replaced.links_begin; i < replaced.links_end; ++i) {
     const VertexHandle v = journal.links[i].vertex;
@@ -476,11 +445,6 @@ void Transaction::remove_isolated(const Edit& replaced, PropertyValues& properti
     journal.removed_vertices.push_back({mesh_.changed(v), mesh_.moved(v),
                                         mesh_.vertex_origin_[v.index()],
                                         mesh_.vertex_flags_[v.index()]});
-    const auto values = std::find_if(properties.vertices.begin(), properties.vertices.end(),
-                                     [v](const auto& entry) { return entry.first == v; });
-    if (values != properties.vertices.end()) {
-      journal.property_values.push_back(std::move(values->second));
-    }
     clear_slot(v);
     workspace_.free_.vertices.push_back(v);
     --workspace_.vertex_count(mesh_);
@@ -494,7 +458,6 @@ VertexHandle Transaction::add_vertex(const Point& point) {
   assert(!kept_);
   make_room_for(1, workspace_.journal_.edits);
   make_room_for(1, workspace_.added_vertices_);
-  std::vector<std::any> properties = mesh_.vertex_properties_.initial();
   Edit edit;
   edit.kind = Edit::Kind::add_vertex;
   drop_taken(workspace_.free_.vertices, 1, mesh_.vertex_slots(),
@@ -513,7 +476,6 @@ VertexHandle Transaction::add_vertex(const Point& point) {
   // From here on nothing can fail.
   workspace_.territory_.claim(edit.vertex);
   workspace_.added_vertices_.push_back(edit.vertex);
-  mesh_.vertex_properties_.restore(edit.vertex, std::move(properties));
   mesh_.points_[edit.vertex.index()] = point;
   mesh_.vertex_flags_[edit.vertex.index()] = 0;
   ++workspace_.vertex_count(mesh_);
@@ -722,10 +684,6 @@ void Transaction::undo_replace(const Edit& edit) {
     mesh_.quality_[i] = saved.quality;
     mesh_.label_[i] = saved.label;
     mesh_.tet_flags_[i] = saved.flags;
-    if (!mesh_.tet_properties_.empty()) {
-      mesh_.tet_properties_.restore(saved.tet, std::move(journal.property_values.back()));
-      journal.property_values.pop_back();
-    }
   }
   for (std::uint32_t k = edit.removed_begin; k < edit.removed_end; ++k) {
     const Journal::RemovedTet& saved = journal.removed[k];
@@ -776,10 +734,6 @@ void Transaction::undo_remove(const Edit& edit) {
   mesh_.vertex_dates_[i] = {saved.date, saved.moved};
   mesh_.vertex_origin_[i] = saved.origin;
   mesh_.vertex_flags_[i] = saved.flags;
-  if (!mesh_.vertex_properties_.empty()) {
-    mesh_.vertex_properties_.restore(edit.vertex, std::move(journal.property_values.back()));
-    journal.property_values.pop_back();
-  }
   workspace_.free_.vertices.pop_back();
   ++workspace_.vertex_count(mesh_);
 }

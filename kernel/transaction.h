@@ -136,19 +136,16 @@ class TETMEND_API Transaction {
   EditResult glue(std::span<const TetHandle> old, std::span<const TetVertices> created);
   bool repeats_a_face(std::span<const TetVertices> created);
   bool mark_constrained_edges(std::span<const TetVertices> created);
-  struct PropertyValues;
-  PropertyValues copy_properties(std::span<const TetHandle> old,
-                                 std::span<const TetVertices> created) const;
   std::uint32_t make_room(std::size_t old, std::size_t created);
   void make_room(std::span<const VertexMove> moves);
   void write_cavity(std::span<const TetHandle> old, std::span<const TetVertices> created,
-                    std::span<const Label> labels, Edit edit, PropertyValues& properties) noexcept;
-  void save_removed(std::span<const TetHandle> old, Edit& edit, PropertyValues& properties);
+                    std::span<const Label> labels, Edit edit) noexcept;
+  void save_removed(std::span<const TetHandle> old, Edit& edit);
   void take_slots(std::span<const TetHandle> old, std::size_t count, Edit& edit);
   void fill_slots(std::span<const TetVertices> created, std::span<const Label> labels,
-                  const Edit& edit, PropertyValues& properties);
+                  const Edit& edit);
   void link_vertices(std::span<const TetVertices> created, Edit& edit);
-  void remove_isolated(const Edit& edit, PropertyValues& properties);
+  void remove_isolated(const Edit& edit);
   void note(const Edit& edit);
   void evaluate(std::span<const VertexMove> moves);
   bool turns_over(std::span<const VertexMove> moves) const;

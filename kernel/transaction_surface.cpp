@@ -12,7 +12,6 @@
 #include <cassert>
 
 #include "kernel/make_room.h"
-#include "kernel/property_values.h"
 #include "kernel/territory_check.h"
 #include "kernel/transaction.h"
 #include "kernel/workspace.h"
@@ -94,16 +93,14 @@ EditResult Transaction::replace_at_surface(std::span<const TetHandle> old,
   edit.kind = Edit::Kind::replace_cavity;
   edit.surface = !workspace_.faces_before_.empty() || !workspace_.faces_after_.empty();
   if (edit.surface && !ask_guard()) return EditResult::constrained;
-  PropertyValues properties;
   try {
     mark_surface(created);
-    properties = copy_properties(old, created);
     edit.appended = make_room(old.size(), created.size());
   } catch (...) {
     if (edit.surface) guard->undo(*workspace_.surface_journal_);
     throw;
   }
-  write_cavity(old, created, labels, edit, properties);
+  write_cavity(old, created, labels, edit);
   return EditResult::made;
 }
 

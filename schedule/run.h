@@ -95,9 +95,9 @@ class Run {
     return share_.part == share_.whole ? selection : selection.of_part(share_.part, share_.whole);
   }
   void set_listener(ProgressListener* listener) { listener_ = listener; }
-  /// What selections may name besides properties and measures. Null: nothing.
-  void set_values(const PlacedValues* values) { values_ = values; }
-  const PlacedValues* values() const { return values_; }
+  /// What selections may name besides measures. Null: nothing.
+  void set_values(const TetValues* values) { values_ = values; }
+  const TetValues* values() const { return values_; }
   /// The run stops at the next consistent state once the flag is true.
   void set_cancel_flag(const std::atomic<bool>* flag) { cancel_ = flag; }
   /// The same, now. May be called by any thread.
@@ -182,7 +182,7 @@ class Run {
   std::size_t block_count_ = 1;
   std::array<ShiftedBlocks, kPartitions> partitions_;
   ProgressListener* listener_ = nullptr;
-  const PlacedValues* values_ = nullptr;
+  const TetValues* values_ = nullptr;
   std::mutex listener_busy_;
   bool flag_is_set() const {
     return stopped_.load(std::memory_order_relaxed) ||
@@ -240,7 +240,7 @@ class PassScope {
   /// tried since the last time; timed as a scan.
   const QualityIndicators& indicators();
   /// See Run::set_values().
-  const PlacedValues* values() const { return run_.values(); }
+  const TetValues* values() const { return run_.values(); }
   /// Attempts so far that were accepted.
   std::size_t accepted() const { return record_.accepted(); }
   /// That many items will be tried.

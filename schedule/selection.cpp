@@ -46,18 +46,15 @@ std::string Selection::describe() const {
 }
 
 SelectionTest::SelectionTest(const TetMesh& mesh, const Selection& selection,
-                             const PlacedValues* values)
+                             const TetValues* values)
     : mesh_(mesh),
       selection_(selection),
       plain_(selection.labels.empty() && !selection.box && !selection.value &&
              selection.since == 0) {
   if (!selection.value) return;
   const std::string& name = selection.value->name;
-  real_ = mesh.tet_properties().find<double>(name);
-  if (!real_.is_valid()) whole_ = mesh.tet_properties().find<int>(name);
-  if (real_.is_valid() || whole_.is_valid()) return;
-  if (values != nullptr) placed_ = values->find(name);
-  if (placed_) return;
+  if (values != nullptr) named_ = values->find(name);
+  if (named_) return;
   try {
     measure_ = &find_quality_measure(name);
   } catch (const Error& error) {
@@ -100,13 +97,8 @@ std::size_t SelectionTest::take(std::size_t candidates, std::size_t below) const
 }
 
 double SelectionTest::value_of(TetHandle t) const {
-  if (real_.is_valid()) return mesh_.tet_properties().at(real_, t);
-  if (whole_.is_valid()) return mesh_.tet_properties().at(whole_, t);
+  if (named_) return named_(mesh_, t);
   const TetVertices& v = mesh_.vertices(t);
-  if (placed_) {
-    return placed_((mesh_.point(v[0]) + mesh_.point(v[1]) + mesh_.point(v[2]) + mesh_.point(v[3])) /
-                   4);
-  }
   return measure_->evaluate(mesh_.point(v[0]), mesh_.point(v[1]), mesh_.point(v[2]),
                             mesh_.point(v[3]));
 }

@@ -27,20 +27,19 @@
 
 namespace tetmend {
 
-/// What a mesh had for its tets when a run began, by name and place.
-class PlacedValues {
+/// Numbers of tets by name: arrays that a mesh came with, or properties of a program.
+class TetValues {
  public:
-  using At = std::function<double(const Point&)>;
+  using Of = std::function<double(const TetMesh&, TetHandle)>;
 
-  virtual ~PlacedValues() = default;
-  /// In lengths that are worked with; may be called by several threads. Empty: there are none of that
-  /// name.
-  virtual At find(std::string_view name) const = 0;
+  virtual ~TetValues() = default;
+  /// What it gives may be called by several threads, for live tets. Empty: there are none of that name.
+  virtual Of find(std::string_view name) const = 0;
   virtual std::vector<std::string> names() const = 0;
 };
 
-/// Tets of a value from low to high. The value is the tet property (double or int) of that name, what
-/// the mesh had of that name at the centroid of the tet, or the quality measure of that name.
+/// Tets of a value from low to high: that of the TetValues of a run, or the quality measure, of that
+/// name.
 struct ValueRange {
   std::string name;
   double low = -std::numeric_limits<double>::infinity();
@@ -74,9 +73,8 @@ struct Selection {
 class SelectionTest {
  public:
   /// @param values null: there are none
-  /// @throws Error when neither property nor value nor measure has the name, with the valid ones.
-  SelectionTest(const TetMesh& mesh, const Selection& selection,
-                const PlacedValues* values = nullptr);
+  /// @throws Error when neither a value nor a measure has the name, with the valid ones.
+  SelectionTest(const TetMesh& mesh, const Selection& selection, const TetValues* values = nullptr);
 
   /// Tets of this quality or higher are out of the question.
   Quality limit() const;
@@ -92,9 +90,7 @@ class SelectionTest {
   const TetMesh& mesh_;
   const Selection& selection_;
   bool plain_;
-  PropertyHandle<TetHandle, double> real_;
-  PropertyHandle<TetHandle, int> whole_;
-  PlacedValues::At placed_;
+  TetValues::Of named_;
   const QualityMeasure* measure_ = nullptr;
 };
 

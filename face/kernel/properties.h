@@ -166,6 +166,9 @@ class TETMEND_API PropertyArray {
   virtual void read(const DataArray& from, std::span<const std::uint32_t> numbers) = 0;
   /// An array of a Mesh, of these slots in turn.
   virtual DataArray to_data(std::span<const std::uint32_t> slots) const = 0;
+  /// The value as a number; NaN for a slot without one, and where values are no numbers.
+  virtual double number(std::size_t slot) const = 0;
+  virtual bool has_numbers() const = 0;
   static constexpr std::uint32_t kNoNumber = 0xFFFFFFFFu;
   bool is_in_files = false;  ///< TetMesh::to_mesh() writes it
 
@@ -234,10 +237,19 @@ class ArrayOf final : public PropertyArray {
     }
     return out;
   }
+  double number(std::size_t slot) const override {
+    if constexpr (kHasNumbers) {
+      if (slot < values.size()) return static_cast<double>(values[slot]);
+    }
+    return std::numeric_limits<double>::quiet_NaN();
+  }
+  bool has_numbers() const override { return kHasNumbers; }
 
   Values<T> values;
 
  private:
+  static constexpr bool kHasNumbers = std::is_arithmetic_v<T>;
+
   template <class Numbers>
   void read_from(const Numbers& all, std::span<const std::uint32_t> numbers) {
     constexpr std::size_t kComponents = InFiles<T>::kComponents;

@@ -73,6 +73,31 @@ class EditTeller final : public TraceSink {
   std::vector<TraceSink*> sinks_;
 };
 
+/// Properties of tets, for selections.
+class ValuesOfProperties final : public TetValues {
+ public:
+  explicit ValuesOfProperties(const PropertyTable& tets) : tets_(tets) {}
+
+  Of find(std::string_view name) const override {
+    const PropertyArray* array = tets_.find(name);
+    if (array == nullptr || !array->has_numbers()) return {};
+    were_asked_ = true;
+    return [array](const tetmend::TetMesh&, TetHandle t) { return array->number(t.index()); };
+  }
+  std::vector<std::string> names() const override {
+    std::vector<std::string> names;
+    for (const auto& array : tets_.all()) {
+      if (array->has_numbers()) names.push_back(array->name());
+    }
+    return names;
+  }
+  bool were_asked() const { return were_asked_; }
+
+ private:
+  const PropertyTable& tets_;
+  mutable bool were_asked_ = false;
+};
+
 PassDone told_of(const PassRecord& record) {
   return {record.name, record.attempts(), record.accepted(), record.seconds, record.after};
 }
@@ -108,6 +133,7 @@ struct Run::Inside {
   Registry registry = Registry::builtin();
   std::optional<tetmend::Run> run;  // while the mesh is as its last pass has left it
   std::size_t stamp = 0;            // of the mesh then
+  bool values_may_differ = false;  // of properties that it has selected by: the program writes them
   std::size_t attempts_left;
   bool is_over = false;
 };
@@ -135,18 +161,24 @@ std::vector<PassDone> Run::make(const Pass& pass) {
   TetMesh& mesh = in.mesh;
   mesh.check_closed("a pass");
   in.record();
-  if (!in.run || in.stamp != mesh.stamp_) in.run.emplace(mesh.mesh_, in.registry);
+  if (!in.run || in.stamp != mesh.stamp_ || in.values_may_differ) {
+    in.run.emplace(mesh.mesh_, in.registry);
+  }
   tetmend::Run& run = *in.run;
   PropertyKeeper& keeper = *mesh.keeper_;
   EditTeller teller(keeper.is_needed() ? &keeper : nullptr,
                     {in.options.observer, in.recorder.get()});
+  const ValuesOfProperties values(keeper.tets);
   run.set_trace(teller.is_needed() ? &teller : nullptr);
+  run.set_values(&values);
   run.set_most_tets(in.options.most_tets);
   run.set_most_attempts(in.attempts_left);
   run.set_cancel_flag(in.options.cancel);
   const std::size_t first = run.records.size();
   const auto leave = [&] {
     run.set_trace(nullptr);
+    run.set_values(nullptr);
+    in.values_may_differ = values.were_asked();
     hold(mesh.mesh_, {});
     keeper.take_touched_lock();
     keeper.forget();

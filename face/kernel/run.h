@@ -35,6 +35,7 @@ using tetmend::SmoothOptions;
 using tetmend::SuppressPointsOptions;
 using tetmend::TraceSink;
 using tetmend::UntangleOptions;
+using tetmend::ValueRange;
 
 /// What a pass did.
 struct TETMEND_API PassDone {
@@ -81,7 +82,8 @@ inline Composition sequence(std::vector<Composition> parts) {
 
 /// Passes over a mesh, as a schedule makes them: what shell.lua says, in C++. A pass leaves out
 /// what has not changed since it last looked there with the same options, until the program itself
-/// changes the mesh. Locked vertices stay; properties follow, and one thread works then.
+/// changes the mesh. Locked vertices stay; properties follow, and one thread works then. Selections,
+/// also those of scripts, know properties of tets that are numbers by their names.
 ///
 /// The mesh must outlive the run. Passes throw Error while a transaction is open, for unknown
 /// operators and parameters, and what a function of an operator throws, with its name; the mesh is

@@ -54,31 +54,6 @@ std::vector<std::uint32_t> inverse(std::span<const std::uint32_t> kept, std::siz
   return numbers;
 }
 
-/// Sorts, and says in which order the slots are now. Precondition: none is deleted.
-void sort(tetmend::TetMesh& mesh, std::vector<std::uint32_t>& vertices,
-          std::vector<std::uint32_t>& tets) {
-  const auto note_slots = [](auto& table, auto handle_of, std::size_t slots) {
-    const auto number = table.template add<std::uint32_t>("slot", 0);
-    for (std::uint32_t i = 0; i < slots; ++i) table.at(number, handle_of(i)) = i;
-    return number;
-  };
-  const auto tet_of = [](std::uint32_t i) { return TetHandle(i); };
-  const auto vertex_of = [](std::uint32_t i) { return VertexHandle(i); };
-  auto plain_tets = mesh.tet_properties();  // without what is added for a while
-  auto plain_vertices = mesh.vertex_properties();
-  const auto tet_number = note_slots(mesh.tet_properties(), tet_of, mesh.tet_slots());
-  const auto vertex_number = note_slots(mesh.vertex_properties(), vertex_of, mesh.vertex_slots());
-  mesh.sort_spatially();
-  for (std::uint32_t i = 0; i < mesh.tet_slots(); ++i) {
-    tets.push_back(mesh.tet_properties().at(tet_number, tet_of(i)));
-  }
-  for (std::uint32_t i = 0; i < mesh.vertex_slots(); ++i) {
-    vertices.push_back(mesh.vertex_properties().at(vertex_number, vertex_of(i)));
-  }
-  mesh.tet_properties() = std::move(plain_tets);
-  mesh.vertex_properties() = std::move(plain_vertices);
-}
-
 std::size_t count_loose(const tetmend::TetMesh& mesh) {
   std::size_t count = 0;
   for (std::uint32_t i = 0; i < mesh.vertex_slots(); ++i) {
@@ -360,36 +335,31 @@ Renumbering TetMesh::collect_garbage() {
   check_closed("collect_garbage()");
   const std::size_t all_vertices = vertex_slots();
   const std::size_t all_tets = tet_slots();
-  const auto vertices = live<VertexHandle>(mesh_, all_vertices);
-  const auto tets = live<TetHandle>(mesh_, all_tets);
-  mesh_.collect_garbage();
-  return follow(vertices, all_vertices, tets, all_tets);
+  return follow(mesh_.collect_garbage(), all_vertices, all_tets);
 }
 
 Renumbering TetMesh::sort_spatially() {
   check_closed("sort_spatially()");
-  Renumbering went = collect_garbage();
-  std::vector<std::uint32_t> vertices, tets;
-  sort(mesh_, vertices, tets);
-  const Renumbering next = follow(vertices, vertices.size(), tets, tets.size());
+  Renumbering went = collect_garbage();  // so that the order does not depend on what is deleted
+  const Renumbering next = follow(mesh_.sort_spatially(), vertex_slots(), tet_slots());
   for (std::uint32_t& v : went.vertices) v = v == kGoneSlot ? v : next.vertices[v];
   for (std::uint32_t& t : went.tets) t = t == kGoneSlot ? t : next.tets[t];
   return went;
 }
 
-/// All that lies beside the mesh follows: these slots of so many are kept, in this order.
-Renumbering TetMesh::follow(const std::vector<std::uint32_t>& vertices, std::size_t vertex_slots,
-                            const std::vector<std::uint32_t>& tets, std::size_t tet_slots) {
-  for (const auto& array : keeper_->vertices.all()) array->gather(vertices);
-  for (const auto& array : keeper_->tets.all()) array->gather(tets);
+/// All that lies beside the mesh follows, which had so many slots.
+Renumbering TetMesh::follow(const tetmend::TetMesh::KeptSlots& kept, std::size_t vertex_slots,
+                            std::size_t tet_slots) {
+  for (const auto& array : keeper_->vertices.all()) array->gather(kept.vertices);
+  for (const auto& array : keeper_->tets.all()) array->gather(kept.tets);
   if (std::vector<std::uint32_t>& numbers = origin_->tet_numbers; !numbers.empty()) {
     // Those of tets that were made are not looked at.
-    std::vector<std::uint32_t> kept;
-    for (const std::uint32_t t : tets) kept.push_back(t < numbers.size() ? numbers[t] : 0);
-    numbers = std::move(kept);
+    std::vector<std::uint32_t> next;
+    for (const std::uint32_t t : kept.tets) next.push_back(t < numbers.size() ? numbers[t] : 0);
+    numbers = std::move(next);
   }
   renew_workspace();
-  return {inverse(vertices, vertex_slots), inverse(tets, tet_slots)};
+  return {inverse(kept.vertices, vertex_slots), inverse(kept.tets, tet_slots)};
 }
 
 std::vector<Finding> TetMesh::check() const {

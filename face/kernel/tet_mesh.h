@@ -327,8 +327,8 @@ class TETMEND_API TetMesh {
   std::vector<std::uint32_t> numbers_of_vertices() const;
   void listen();
   void renew_workspace();
-  Renumbering follow(const std::vector<std::uint32_t>& vertices, std::size_t vertex_slots,
-                     const std::vector<std::uint32_t>& tets, std::size_t tet_slots);
+  Renumbering follow(const tetmend::TetMesh::KeptSlots& kept, std::size_t vertex_slots,
+                     std::size_t tet_slots);
 
   template <class T>
   ArrayOf<T>& find_or_add(PropertyTable& table, std::string_view name, T initial, bool inherits,

@@ -205,6 +205,29 @@ TEST_CASE("in passes locked vertices stay and properties follow") {
   CHECK(edit.move(locked[0].first, locked[0].second) == EditResult::constrained);
 }
 
+TEST_CASE("passes and scripts select tets by a property, with the values of today") {
+  TetMesh mesh{Mesh(shaken_cube(6, 1.0))};
+  auto mark = mesh.tet_property<int>("mark", 0);
+  mesh.tet_property<std::string>("name");
+  Run run(mesh);
+  const ApplyOptions marked = {.what = one("edge_removal"),
+                               .on = {.value = ValueRange{.name = "mark", .low = 1}}};
+  CHECK(run.apply(marked).attempts == 0);
+  std::size_t count = 0;
+  for (TetHandle t : mesh.tets()) {
+    if (mesh.quality(t) < 1 && t.index() % 2 == 0) mark[t] = 1, ++count;
+  }
+  REQUIRE(count > 10);
+  const PassDone pass = run.apply(marked);
+  CHECK(pass.attempts > 0);
+  CHECK(pass.attempts < Run(mesh).apply("edge_removal").attempts);
+  const auto passes = run.schedule("apply('edge_removal', {on = {property = {'mark', low = 1}}})");
+  CHECK(passes.front().attempts > 0);
+  CHECK(message_of([&] {
+          run.apply({.what = one("edge_removal"), .on = {.value = ValueRange{.name = "name"}}});
+        }).ends_with("arrays of the tets: mark"));
+}
+
 TEST_CASE("a run ends with its attempts, and another goal is worked towards when it is set") {
   TetMesh mesh{Mesh(shaken_cube(8, 1.0))};
   Run few(mesh, {.most_attempts = 100});

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <new>
 #include <random>
 #include <ranges>
 #include <set>
@@ -23,6 +24,7 @@
 #include "face/kernel/transaction.h"
 #include "face/mesh_access.h"
 #include "tests/face/meshes.h"
+#include "tests/support/costly.h"
 #include "tests/support/mixed_mesh.h"
 #include "tests/support/second_order.h"
 
@@ -529,6 +531,71 @@ TEST_CASE("an exception of a rule for new tets comes out of the edit, which is u
   mesh.remove_tet_property("odd");
   Transaction edit(mesh);
   CHECK(edit.split(e, middle(mesh, e)).is_valid());
+}
+
+TEST_CASE("undo brings back the values that a program wrote before an edit") {
+  TetMesh mesh = ball();
+  auto colour = mesh.tet_property<std::string>("colour", "none");
+  auto weight = mesh.vertex_property<double>("weight", -1);
+  const TetHandle t(7);
+  colour[t] = "from the file";
+  const TetVertices whole = mesh.vertices(t);
+  Transaction edit(mesh);
+  const auto [a, b, c, d] = mesh.points(t);
+  const VertexHandle m = edit.split(t, (a + b + c + d) / 4);
+  REQUIRE(m.is_valid());
+  CHECK(weight[m] == -1);
+  weight[m] = 3;
+  const auto four = edit.created();
+  REQUIRE(four.size() == 4);
+  for (const TetHandle u : four) {
+    CHECK(colour[u] == "none");
+    colour[u] = "mine";
+  }
+  {
+    Transaction inner(mesh);
+    REQUIRE(inner.replace(four, {whole}) == EditResult::made);
+    CHECK(colour[inner.created()[0]] == "none");
+  }
+  for (const TetHandle u : four) CHECK(colour[u] == "mine");
+  CHECK(weight[m] == 3);
+  edit.undo();
+  CHECK(colour[t] == "from the file");
+}
+
+TEST_CASE("an edit for whose properties memory runs out has changed nothing") {
+  using tetmend::test::Costly;
+  TetMesh mesh = ball();
+  auto colour = mesh.tet_property<std::string>("colour", "none", NewTets::inherited);
+  auto tets = mesh.tet_property<Costly>("costly", Costly(1));
+  auto vertices = mesh.vertex_property<Costly>("costly", Costly(2));
+  const TetHandle t(7);
+  tets[t] = Costly(7);
+  for (const TetHandle u : mesh.tets()) colour[u] = std::to_string(u.index());
+  const Picture before = picture_of(mesh);
+  const TetVertices whole = mesh.vertices(t);
+  const auto [a, b, c, d] = mesh.points(t);
+  int copies = 0;
+  for (bool made = false; !made; ++copies) {
+    {
+      Transaction edit(mesh);
+      Costly::copies_left = copies;
+      try {
+        const VertexHandle m = edit.split(t, (a + b + c + d) / 4);
+        REQUIRE(m.is_valid());
+        made = edit.replace(edit.created(), {whole}) == EditResult::made;
+      } catch (const std::bad_alloc&) {
+      }
+      Costly::copies_left = Costly::kPlenty;
+    }
+    CHECK(picture_of(mesh) == before);
+    for (const TetHandle u : mesh.tets()) {
+      CHECK(tets[u].value == (u == t ? 7 : 1));
+      CHECK(colour[u] == std::to_string(u.index()));
+    }
+    for (const VertexHandle v : mesh.vertices()) CHECK(vertices[v].value == 2);
+  }
+  CHECK(copies > 5);
 }
 
 TEST_CASE("a locked vertex neither moves nor vanishes, whoever tries") {

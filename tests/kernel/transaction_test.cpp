@@ -16,7 +16,6 @@
 #include "kernel/star.h"
 #include "kernel/surface_fingerprint.h"
 #include "kernel/workspace.h"
-#include "tests/support/costly.h"
 #include "tests/support/zoo.h"
 
 using namespace tetmend;
@@ -136,10 +135,7 @@ std::vector<VertexHandle> free_vertices(const TetMesh& mesh) {
 class RandomEditor {
  public:
   RandomEditor(TetMesh& mesh, Workspace& workspace, std::uint64_t seed)
-      : mesh_(mesh), workspace_(workspace), random_(seed) {
-    colour_ = mesh.tet_properties().find<std::string>("colour");
-    weight_ = mesh.vertex_properties().find<double>("weight");
-  }
+      : mesh_(mesh), workspace_(workspace), random_(seed) {}
 
   /// A transaction with edits, children and undos, kept or not. True if kept.
   bool play(unsigned depth) {
@@ -153,7 +149,7 @@ class RandomEditor {
           const TetMesh at_child = mesh_;
           if (!play(depth + 1)) require_same(at_child);
         } else {
-          edit(tx);
+          edit();
         }
         if (random_.index(10) == 0) {
           tx.undo();
@@ -174,17 +170,9 @@ class RandomEditor {
   std::size_t refused() const { return refused_; }
 
  private:
-  void require_same(const TetMesh& other) {
-    REQUIRE(mesh_ == other);
-    for (const TetHandle t : live_tets(mesh_)) {
-      REQUIRE(mesh_.tet_properties().at(colour_, t) == other.tet_properties().at(colour_, t));
-    }
-    for (const VertexHandle v : live_vertices(mesh_)) {
-      REQUIRE(mesh_.vertex_properties().at(weight_, v) == other.vertex_properties().at(weight_, v));
-    }
-  }
+  void require_same(const TetMesh& other) { REQUIRE(mesh_ == other); }
 
-  void edit(Transaction& tx) {
+  void edit() {
     const TetMesh before = mesh_;
     EditResult result = EditResult::not_closed;
     {
@@ -201,9 +189,6 @@ class RandomEditor {
     ++made_;
     const std::string findings = to_string(check_integrity(mesh_));
     REQUIRE(findings == "");
-    for (const TetHandle t : tx.created()) {
-      if (!mesh_.is_deleted(t)) mesh_.tet_properties().at(colour_, t) = "new";
-    }
   }
 
   EditResult try_edit(Transaction& tx) {
@@ -243,7 +228,6 @@ class RandomEditor {
         const TetEdge edge(t, static_cast<unsigned>(random_.index(6)));
         const auto [a, b] = mesh_.vertices(edge);
         const VertexHandle m = tx.add_vertex((mesh_.point(a) + mesh_.point(b)) / 2);
-        mesh_.vertex_properties().at(weight_, m) = random_.real();
         return logged(tx, split_edge(mesh_, edge, m));
       }
       default: {
@@ -267,22 +251,10 @@ class RandomEditor {
   TetMesh& mesh_;
   Workspace& workspace_;
   Random random_;
-  PropertyHandle<TetHandle, std::string> colour_;
-  PropertyHandle<VertexHandle, double> weight_;
   std::vector<TetHandle> log_;
   std::size_t made_ = 0;
   std::size_t refused_ = 0;
 };
-
-void add_properties(TetMesh& mesh) {
-  const auto colour = mesh.tet_properties().add<std::string>("colour", "none");
-  const auto weight = mesh.vertex_properties().add<double>("weight", -1);
-  for (const TetHandle t : live_tets(mesh)) {
-    mesh.tet_properties().at(colour, t) = "from the file " + std::to_string(t.index());
-  }
-  for (const VertexHandle v : live_vertices(mesh))
-    mesh.vertex_properties().at(weight, v) = v.index();
-}
 
 MeshData constrained_ball() {
   MeshData data = zoo_data("ball_20");
@@ -308,7 +280,6 @@ TEST_CASE("after thousands of random edits in nested transactions every undo giv
         std::pair(two_regions(), 200), std::pair(zoo_data("tangled_ball_60"), 40),
         std::pair(touching_at_edge(), 200)}) {
     TetMesh mesh(data);
-    add_properties(mesh);
     Workspace workspace(mesh);
     const double volume = total_volume(mesh);
     const std::uint64_t surface = surface_fingerprint(mesh);
@@ -331,7 +302,6 @@ TEST_CASE("after thousands of random edits in nested transactions every undo giv
 TEST_CASE("edits that are undone and done again get the same handle numbers") {
   for (std::uint64_t seed = 1; seed <= 30; ++seed) {
     TetMesh mesh(zoo_data("ball_20"));
-    add_properties(mesh);
     Workspace workspace(mesh);
     RandomEditor(mesh, workspace, 100 + seed).play(1);  // leaves free slots, or not
     const auto run = [&](std::vector<TetHandle>& log) {
@@ -938,71 +908,4 @@ TEST_CASE("dates and marks of edits that are not kept are not written") {
   }
   for (const VertexHandle w : live_vertices(mesh)) CHECK(mesh.changed(w) == 0);
   for (const TetHandle t : live_tets(mesh)) CHECK_FALSE(mesh.is_touched(t));
-}
-
-TEST_CASE("new tets and vertices start with default properties, and undo brings old values back") {
-  TetMesh mesh(zoo_data("ball_20"));
-  add_properties(mesh);
-  const auto colour = mesh.tet_properties().find<std::string>("colour");
-  const auto weight = mesh.vertex_properties().find<double>("weight");
-  Workspace workspace(mesh);
-  const TetHandle t(7);
-  Transaction tx(mesh, workspace);
-  const VertexHandle m = tx.add_vertex(middle(mesh, mesh.vertices(t)));
-  CHECK(mesh.vertex_properties().at(weight, m) == -1);
-  mesh.vertex_properties().at(weight, m) = 3;
-  const TetVertices whole = mesh.vertices(t);
-  REQUIRE(replace(tx, split_tet(mesh, t, m)) == EditResult::made);
-  const std::vector<TetHandle> four(tx.created().begin(), tx.created().end());
-  for (const TetHandle u : four) {
-    CHECK(mesh.tet_properties().at(colour, u) == "none");
-    mesh.tet_properties().at(colour, u) = "mine";
-  }
-  {
-    Transaction child(mesh, workspace);
-    REQUIRE(child.replace_cavity(four, {&whole, 1}) == EditResult::made);
-    CHECK(mesh.tet_properties().at(colour, t) == "none");
-  }
-  for (const TetHandle u : four) CHECK(mesh.tet_properties().at(colour, u) == "mine");
-  CHECK(mesh.vertex_properties().at(weight, m) == 3);
-  tx.undo();
-  CHECK(mesh.tet_properties().at(colour, t) == "from the file 7");
-}
-
-TEST_CASE("an edit for whose properties memory runs out has changed nothing") {
-  TetMesh mesh(zoo_data("ball_20"));
-  add_properties(mesh);
-  const auto colour = mesh.tet_properties().find<std::string>("colour");
-  const auto tets = mesh.tet_properties().add<Costly>("costly", Costly(1));
-  const auto vertices = mesh.vertex_properties().add<Costly>("costly", Costly(2));
-  mesh.tet_properties().at(tets, TetHandle(7)) = Costly(7);
-  const TetMesh before = mesh;
-  Workspace workspace(mesh);
-  const TetHandle t(7);
-  const TetVertices whole = mesh.vertices(t);
-  int copies = 0;
-  for (bool made = false; !made; ++copies) {
-    {
-      Transaction tx(mesh, workspace);
-      Costly::copies_left = copies;
-      try {
-        const VertexHandle m = tx.add_vertex(middle(mesh, whole));
-        const EditResult split = replace(tx, split_tet(mesh, t, m));
-        REQUIRE(split == EditResult::made);
-        const std::vector<TetHandle> four(tx.created().begin(), tx.created().end());
-        made = tx.replace_cavity(four, {&whole, 1}) == EditResult::made;
-      } catch (const std::bad_alloc&) {
-      }
-      Costly::copies_left = Costly::kPlenty;
-    }
-    CHECK(mesh == before);
-    for (const TetHandle u : live_tets(mesh)) {
-      CHECK(mesh.tet_properties().at(tets, u).value == (u == t ? 7 : 1));
-      CHECK(mesh.tet_properties().at(colour, u) == before.tet_properties().at(colour, u));
-    }
-    for (const VertexHandle v : live_vertices(mesh)) {
-      CHECK(mesh.vertex_properties().at(vertices, v).value == 2);
-    }
-  }
-  CHECK(copies > 15);
 }

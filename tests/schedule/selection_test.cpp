@@ -30,9 +30,11 @@ TetMesh ball() {
   return TetMesh(data);
 }
 
-std::set<TetHandle> selected(TetMesh& mesh, const Selection& selection) {
+std::set<TetHandle> selected(TetMesh& mesh, const Selection& selection,
+                             const TetValues* values = nullptr) {
   Registry registry;
   Run run(mesh, registry);
+  run.set_values(values);
   PassScope scope(run, "test");
   std::set<TetHandle> tets;
   for (const QueuedTet& tet : queue_tets(scope, mesh, selection, 0)) tets.insert(tet.tet);
@@ -46,6 +48,20 @@ std::set<TetHandle> where(const TetMesh& mesh, const std::function<bool(TetHandl
   }
   return tets;
 }
+
+/// 5 for one tet, 1 for all others.
+class Heat final : public TetValues {
+ public:
+  explicit Heat(TetHandle hot) : hot_(hot) {}
+  Of find(std::string_view name) const override {
+    if (name != "heat") return {};
+    return [hot = hot_](const TetMesh&, TetHandle t) { return t == hot ? 5.0 : 1.0; };
+  }
+  std::vector<std::string> names() const override { return {"heat"}; }
+
+ private:
+  TetHandle hot_;
+};
 
 /// The worst of some tets.
 std::set<TetHandle> worst(const TetMesh& mesh, std::set<TetHandle> tets, std::size_t count) {
@@ -104,13 +120,13 @@ TEST_CASE("tets with all vertices in a box are selected") {
   CHECK(selected(mesh, {.below = Selection::kAll, .box = box}) == inside);
 }
 
-TEST_CASE("tets are selected by a property and by a quality measure") {
+TEST_CASE("tets are selected by a value of a run and by a quality measure") {
   TetMesh mesh = ball();
-  const auto heat = mesh.tet_properties().add<double>("heat", 1.0);
   const TetHandle hot = *live_tets(mesh).begin();
-  mesh.tet_properties().at(heat, hot) = 5;
+  const Heat heat(hot);
   const ValueRange above{.name = "heat", .low = 4};
-  CHECK(selected(mesh, {.below = Selection::kAll, .value = above}) == std::set<TetHandle>{hot});
+  CHECK(selected(mesh, {.below = Selection::kAll, .value = above}, &heat) ==
+        std::set<TetHandle>{hot});
   const ValueRange sharp{.name = "min_angle", .high = 20};
   const auto expected = where(mesh, [&](TetHandle t) {
     const TetVertices& v = mesh.vertices(t);
