@@ -90,6 +90,14 @@ void print(const Options& options, const std::vector<Fact>& facts, bool holds) {
       say_whether(fact.holds);
       say(stdout, printable(fact.text) + '\n');
     }
+    const bool has_moved = std::any_of(facts.begin(), facts.end(), [](const Fact& fact) {
+      return fact.name == "surface" && !fact.holds;
+    });
+    if (has_moved) {
+      say(stderr,
+          "note: surfaces are compared bit for bit; what is proven of one that moved by "
+          "--surface is in the report of that run\n");
+    }
     return;
   }
   print_json(to_json(options, facts, holds));

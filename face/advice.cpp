@@ -82,9 +82,12 @@ std::string reasons_of_inverted(const InvertedTets& count) {
 constexpr std::size_t kLeastOffer = 10;
 
 /// What a script of the user makes of a surface that moves, nobody knows.
+bool is_surface_fixed(const Options& options) {
+  return options.surface.empty() || options.surface == "fixed";
+}
+
 bool offers_flat(const Options& options, const Result& result) {
-  const bool is_fixed = options.surface.empty() || options.surface == "fixed";
-  return is_fixed && options.script.empty() && result.ending != Ending::cancelled;
+  return is_surface_fixed(options) && options.script.empty() && result.ending != Ending::cancelled;
 }
 
 }  // namespace
@@ -212,7 +215,8 @@ std::vector<std::string> advice_on(const Held& held, const Options& options, con
     texts.push_back(advice_on_frozen(options, result, held.by_frozen, held.bad));
   }
   if (held.by_surface > 0 && 2 * held.by_surface >= held.bad) {
-    texts.push_back(fmt::format("the surface, which stays, has all vertices of {}",
+    texts.push_back(fmt::format("the surface, which {}, has all vertices of {}",
+                                is_surface_fixed(options) ? "stays" : "moves no further",
                                 share_of_bad(held.by_surface, held.bad)));
   }
   return texts;

@@ -223,6 +223,9 @@ TEST_CASE("the surface is named where it has all vertices of the bad tets") {
   CHECK(mentions(result.notes, fmt::format("the surface, which stays, has all vertices of {} bad "
                                            "tets",
                                            grouped(result.after.n_bad))));
+  mesh = Mesh(to_arrays(make_lattice(unit, unit, axis_of({0.4}))));
+  CHECK(mentions(improve(mesh, {.script = kNothing, .surface = "flat"}).notes,
+                 "the surface, which moves no further, has all vertices of "));
 }
 
 TEST_CASE("a mesh that is stretched throughout gets a warning, layers that are kept do not") {
