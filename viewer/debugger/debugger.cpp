@@ -2,9 +2,7 @@
 #include "viewer/debugger/debugger.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <fstream>
 
 #include "kernel/error.h"
 
@@ -147,14 +145,6 @@ void Debugger::list_calls(const Condition& condition) {
 
 void Debugger::compare_with(const std::filesystem::path& file) {
   other_ = {file, compare_runs(file_, TraceFile(file))};
-}
-
-bool is_trace(const std::filesystem::path& file) {
-  constexpr std::string_view kMagic = "TETTRAC\n";
-  std::array<char, kMagic.size()> begin{};
-  std::ifstream in(file, std::ios::binary);
-  return in.read(begin.data(), begin.size()) &&
-         std::string_view(begin.data(), begin.size()) == kMagic;
 }
 
 }  // namespace tetmend::viewer

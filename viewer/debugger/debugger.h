@@ -152,7 +152,4 @@ class Debugger {
   double unplayed_ = 0;  // share of an event
 };
 
-/// True if the file begins as traces do. False also if it cannot be read.
-bool is_trace(const std::filesystem::path& file);
-
 }  // namespace tetmend::viewer
