@@ -124,6 +124,7 @@ void Debugger::ask_history(const HistorySubject& subject) {
   const std::uint64_t home = position();
   try {
     history_ = history_of(file_, replay_, subject);
+    news = News::history;
   } catch (const Error&) {
     replay_.seek(home);
     throw;
@@ -141,6 +142,7 @@ void Debugger::list_calls(const Condition& condition) {
   std::vector<std::uint32_t> calls = find_all(source(), condition);
   replay_.seek(home);
   found_ = {condition, std::move(calls)};
+  news = News::found;
 }
 
 void Debugger::compare_with(const std::filesystem::path& file) {
