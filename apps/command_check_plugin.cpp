@@ -8,6 +8,7 @@
 #include "apps/commands.h"
 #include "apps/files.h"
 #include "apps/improve_options.h"
+#include "apps/mesh_formats.h"
 #include "apps/plugin_watch.h"
 #include "apps/standard_streams.h"
 #include "contract/contract.h"
@@ -62,7 +63,7 @@ bool check_operator(const Registry& registry, std::string_view name,
 }
 
 int run_check_plugin(const CheckPluginOptions& options) {
-  for (const std::filesystem::path& file : options.meshes) check_mesh_extension(file);
+  for (const std::filesystem::path& file : options.meshes) check_input_format(file, nullptr);
   Registry registry = Registry::builtin();
   const Plugin plugin = load_plugin(options.plugin, registry);
   note_crashes();

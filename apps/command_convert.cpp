@@ -12,6 +12,7 @@
 #include "apps/commands.h"
 #include "apps/convert_pieces.h"
 #include "apps/files.h"
+#include "apps/mesh_formats.h"
 #include "apps/piece_options.h"
 #include "apps/standard_streams.h"
 #include "apps/threads.h"
@@ -66,7 +67,7 @@ int convert_one(const ConvertOptions& options, Invocation& invocation) {
     invocation.wrote_files = true;
     return kSuccess;
   }
-  check_mesh_extension(options.input);
+  check_input_format(options.input, &parts);
   check_mesh_extension(options.output);
   check_variant(options.output, options.carry);
   const NamedFile input = {"IN", options.input, NamedFile::Kind::mesh};

@@ -13,6 +13,7 @@
 #include "face/mesh_access.h"
 #include "kernel/formats/mesh_io.h"
 #include "kernel/formats/tet_mesh_io.h"
+#include "trace/no_mesh.h"
 
 namespace tetmend::apps {
 
@@ -38,8 +39,11 @@ void take_elements(const std::vector<pieces::RankShare::Element<N>>& from,
 
 void check_formats(const std::filesystem::path& input, const std::filesystem::path& output,
                    const CarryOptions& carry, const pieces::ArrayFiles* known) {
-  for (const std::filesystem::path& file : {input, output}) check_input_format(file, known);
-  if (!is_in_parts(output, known)) return check_variant(output, carry);
+  check_input_format(input, known);
+  if (!is_in_parts(output, known)) {
+    check_mesh_extension(output);
+    return check_variant(output, carry);
+  }
   if (!carry.variant.empty()) {
     throw UsageError(fmt::format("--variant: '{}' is none of {}: there is only one", carry.variant,
                                  output.string()));
@@ -48,7 +52,9 @@ void check_formats(const std::filesystem::path& input, const std::filesystem::pa
 }
 
 void check_input_format(const std::filesystem::path& input, const pieces::ArrayFiles* known) {
-  if (!is_in_parts(input, known)) check_mesh_extension(input);
+  if (is_in_parts(input, known)) return;
+  refuse_what_is_no_mesh(input);
+  check_mesh_extension(input);
 }
 
 std::string parts_help() {

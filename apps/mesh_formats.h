@@ -17,11 +17,11 @@ namespace tetmend::apps {
 /// What commands do with the names of IN and OUT before they read.
 /// @param known formats that all ranks read and write together; null: none
 /// @throws UsageError for an extension of no format, and a variant that OUT does not have; Error when
-/// it is known already that OUT cannot be written
+/// IN is not there or a trace, and when it is known already that OUT cannot be written
 void check_formats(const std::filesystem::path& input, const std::filesystem::path& output,
                    const CarryOptions& carry, const pieces::ArrayFiles* known);
 
-/// What commands do with the name of a mesh that they only read. @throws UsageError likewise
+/// What commands do with the name of a mesh that they only read. @throws UsageError, Error likewise
 void check_input_format(const std::filesystem::path& input, const pieces::ArrayFiles* known);
 
 /// What is said of meshes in parts where formats are listed.

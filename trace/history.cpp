@@ -18,33 +18,27 @@ bool has_all(const TetVertices& tet, const HistorySubject& part) {
   });
 }
 
-int count(std::span<const CavityTet> tets, const HistorySubject& subject) {
-  return static_cast<int>(std::count_if(tets.begin(), tets.end(), [&](const CavityTet& tet) {
-    return has_all(tet.vertices, subject);
-  }));
-}
-
-/// Goes through a trace and finds the edits of the subject that lasted.
+/// Goes through a trace and finds the edits of the subject that lasted. Those that were undone are
+/// left out with their undos: the last edit that stands is undone first, so that none that lasted
+/// lies between them.
 class Follower {
  public:
-  Follower(const TraceFile& file, Replay& replay, const HistorySubject& subject)
-      : file_(file), replay_(replay), subject_(subject) {}
+  Follower(const TraceFile& file, const HistorySubject& subject) : file_(file), subject_(subject) {}
 
   void run() {
-    replay_.seek(0);
-    const SlotMesh& mesh = replay_.mesh();
+    const SlotMesh& mesh = file_.initial_mesh();
+    tets_.resize(mesh.tet_slots());
     for (std::uint32_t i = 0; i < mesh.tet_slots(); ++i) {
       const TetHandle t(i);
-      at_beginning_ += !mesh.is_deleted(t) && has_all(mesh.vertices(t), subject_) ? 1 : 0;
+      if (!mesh.is_deleted(t)) tets_[i] = mesh.vertices(t);
+      at_beginning_ += is_around(tets_[i]) ? 1 : 0;
     }
     EventCursor cursor(file_);
     for (std::uint64_t k = 0; k < file_.event_count(); ++k) {
-      const EventKind kind = cursor.next().kind;
-      if (!changes_mesh(kind) || kind == EventKind::undo || file_.is_undone(k)) continue;
-      replay_.seek(k + 1);
-      const Cavity cavity = replay_.cavity();
-      const Edit edit{k, count(cavity.created, subject_) - count(cavity.removed, subject_),
-                      kind == EventKind::move_vertex && moves(cavity)};
+      const TraceEvent& event = cursor.next();
+      if (!changes_mesh(event.kind) || event.kind == EventKind::undo || file_.is_undone(k))
+        continue;
+      const Edit edit{k, replace(event), moves(event)};
       if (edit.change != 0 || edit.moves) lasting_.push_back(edit);
     }
   }
@@ -58,15 +52,35 @@ class Follower {
   const std::vector<Edit>& lasting() const { return lasting_; }
 
  private:
-  bool moves(const Cavity& cavity) const {
-    return std::any_of(cavity.vertices.begin(), cavity.vertices.end(), [&](const auto& change) {
-      return std::find(subject_.begin(), subject_.end(), change.vertex) != subject_.end();
-    });
+  bool is_around(const TetVertices& tet) const {
+    return tet[0].is_valid() && has_all(tet, subject_);
+  }
+
+  /// Gives the change of the number of tets with the subject.
+  int replace(const TraceEvent& event) {
+    if (event.kind != EventKind::replace_cavity) return 0;
+    int change = 0;
+    const auto set = [&](TetHandle t, const TetVertices& vertices) {
+      if (t.index() >= tets_.size()) tets_.resize(t.index() + 1);
+      TetVertices& tet = tets_[t.index()];
+      change += (is_around(vertices) ? 1 : 0) - (is_around(tet) ? 1 : 0);
+      tet = vertices;
+    };
+    for (const TetHandle t : event.removed) set(t, {});
+    for (std::size_t i = 0; i < event.created.size(); ++i) {
+      set(event.created[i], event.created_vertices[i]);
+    }
+    return change;
+  }
+
+  bool moves(const TraceEvent& event) const {
+    return event.kind == EventKind::move_vertex &&
+           std::find(subject_.begin(), subject_.end(), event.vertices.front()) != subject_.end();
   }
 
   const TraceFile& file_;
-  Replay& replay_;
   const HistorySubject& subject_;
+  std::vector<TetVertices> tets_;  // by slot
   int at_beginning_ = 0;
   std::vector<Edit> lasting_;
 };
@@ -138,6 +152,13 @@ void find_surface(const SlotMesh& mesh, std::vector<PartHistory>& parts) {
   }
 }
 
+/// At the subject or a part of it.
+bool aims_at(const Call& call, const HistorySubject& subject) {
+  return std::all_of(call.target().begin(), call.target().end(), [&](VertexHandle v) {
+    return std::find(subject.begin(), subject.end(), v) != subject.end();
+  });
+}
+
 HistorySubject sorted_target(const Call& call) {
   HistorySubject target(call.target().begin(), call.target().end());
   std::sort(target.begin(), target.end());
@@ -169,6 +190,7 @@ void find_calls(const TraceFile& file, History& history) {
   for (std::uint32_t c = 0; c < file.calls().size(); ++c) {
     const Call& call = file.calls()[c];
     if (call.events.begin < history.made || call.events.begin >= end) continue;
+    if (!aims_at(call, history.subject)) continue;
     const auto part = by_part.find(sorted_target(call));
     if (part == by_part.end()) continue;
     history.calls.push_back({c, file.is_undone(call.events.begin)});
@@ -196,7 +218,7 @@ void measure_tet(const SlotMesh& mesh, History& history) {
 }  // namespace
 
 History history_of(const TraceFile& file, Replay& replay, const HistorySubject& subject) {
-  Follower follower(file, replay, subject);
+  Follower follower(file, subject);
   follower.run();
   History history;
   history.subject = subject;

@@ -16,6 +16,7 @@
 #include "kernel/formats/mesh_io.h"
 #include "kernel/formats/tet_mesh_io.h"
 #include "kernel/grouped.h"
+#include "viewer/debugger/openable.h"
 #include "viewer/live/carried_data.h"
 
 namespace tetmend::viewer {
@@ -39,17 +40,13 @@ std::string named_beside(const MeshData& data) {
 }
 
 /// Readers of meshes would speak of extensions.
-void refuse_what_is_no_mesh(const std::filesystem::path& file) {
+void refuse_what_is_neither(const std::filesystem::path& file) {
   std::error_code none;
   if (std::filesystem::is_directory(file, none)) {
     throw Error(fmt::format("{}: this is a folder", file.string()));
   }
-  const bool is_there = std::filesystem::exists(file, none);
-  if (!is_there && format_name(file).empty()) {
-    const auto reason = std::make_error_code(std::errc::no_such_file_or_directory);
-    throw Error(fmt::format("{}: cannot be read: {}", file.string(), reason.message()));
-  }
-  if (file.extension() != ".trace" || !is_there) return;
+  refuse_what_is_no_mesh(file);
+  if (file.extension() != ".trace") return;
   throw Error(std::filesystem::is_empty(file, none)
                   ? fmt::format("{}: the file is empty", file.string())
                   : fmt::format("{}: this is no trace: it does not begin as one", file.string()));
@@ -92,7 +89,7 @@ OpenedFile read_file(const std::filesystem::path& file, const Standard& standard
   tell(OpeningStage::reading);
   if (is_trace(file)) return read_trace(file, tell);
   if (file.extension() == ".json") return read_trace(explain::trace_of_lesson(file), tell);
-  refuse_what_is_no_mesh(file);
+  refuse_what_is_neither(file);
   OpenedFile opened;
   opened.file = file;
   MeshData data = read_mesh(file);

@@ -457,6 +457,45 @@ TEST_CASE("a bad file gives one line with its place, status 1, and leaves an old
   check_complaint(run_program({"quality", (folder / "missing.mesh").string()}), 1);
 }
 
+TEST_CASE("what is given as a mesh and is not there, or is a trace, is told so by its name") {
+  TempFolder folder;
+  const std::string missing = (folder / "nope.trace").string();
+  const std::string trace = (folder / "run.trace").string();
+  const std::string out = (folder / "out.mesh").string();
+  const std::string improved = (folder / "improved.mesh").string();
+  REQUIRE(run_program({"improve", asset("sheet.mesh"), "-o", improved, "--schedule", "quick",
+                       "--trace", trace})
+              .status == 0);
+  const std::string good = asset("sheet.mesh");
+  const auto check_both = [&](const std::vector<std::string>& before,
+                              const std::vector<std::string>& after) {
+    const auto complain = [&](const std::string& file, const std::string& reason) {
+      std::vector<std::string> words = before;
+      words.push_back(file);
+      words.insert(words.end(), after.begin(), after.end());
+      CAPTURE(words);
+      const Outcome outcome = run_program(words);
+      check_complaint(outcome, 1);
+      CHECK(contains(outcome.err, file + ": " + reason));
+    };
+    complain(missing, "cannot be read: No such file");
+    complain(trace, "this is the trace of a run, not a mesh");
+  };
+  check_both({"quality"}, {});
+  check_both({"quality", good}, {});
+  check_both({"check"}, {"--no-inverted"});
+  check_both({"check", good}, {});
+  check_both({"improve"}, {"-o", out});
+  check_both({"convert"}, {out});
+  if (kHasSurface) check_both({"surface"}, {(folder / "out.off").string()});
+  CHECK_FALSE(std::filesystem::exists(out));
+  // A file with another wrong name is told what names there are.
+  write_text(folder / "notes.txt", "hello");
+  const Outcome outcome = run_program({"quality", (folder / "notes.txt").string()});
+  check_complaint(outcome, 2);
+  CHECK(contains(outcome.err, "the extension '.txt' is not known here"));
+}
+
 TEST_CASE(
     "tets that no order of vertices puts on two sides of a face are located in every format") {
   const TempFolder folder;

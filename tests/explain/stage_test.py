@@ -50,6 +50,10 @@ for (const id of ["lesson-text", "ask"]) {
   isInside(e, room, id);
   if (e.scrollWidth > e.clientWidth + 1 || e.scrollHeight > e.clientHeight + 1) bad.push(`${id}: a text is cut`);
 }
+for (const spot of document.querySelectorAll("#ring .pick")) {  // its line, too; the picture goes from -1 to 1
+  const far = Math.max(Math.abs(spot.cx.baseVal.value), Math.abs(spot.cy.baseVal.value)) + spot.r.baseVal.value + parseFloat(getComputedStyle(spot).strokeWidth) / 2;
+  if (far > 1.0001) bad.push(`ring: a corner to press of ${far}`);
+}
 const shown = [];
 for (const [name, selector] of Object.entries(panels)) {
   const card = document.querySelector(selector);
@@ -159,6 +163,32 @@ class Stage(unittest.TestCase):
                     following = PAGES[n + 1].name
                     self.assertTrue(where.wait_for(f"return location.pathname.endsWith('{following}') && document.readyState === 'complete'"), following)
             self.assertTrue(where.run("return document.getElementById('lesson-next').disabled"))
+        finally:
+            where.close()
+
+    def test_the_edge_has_the_colour_of_the_window_and_none_of_the_tets(self) -> None:
+        window_colour = re.search(r"kSupportingEdgeColour\{(\d+), (\d+), (\d+)", (SOURCE / "figure" / "colour.h").read_text())
+        for dark in (False, True):
+            where = window(1280, 800, dark)
+            try:
+                where.open(PAGES[1].as_uri())
+                edge, bad, cell = where.run("return [colourOf('edge'), BAD, colourOf('cell')]")
+                if not dark:
+                    self.assertEqual(edge, [int(part) for part in window_colour.groups()])
+                for other in (bad, cell):
+                    self.assertGreater(max(abs(a - b) for a, b in zip(edge, other)), 100, f"{edge} {other}")
+            finally:
+                where.close()
+
+    def test_names_of_the_paper_have_indices_and_can_be_copied(self) -> None:
+        tables = next(page for page in PAGES if page.name == "4-tables.html")
+        where = window(1280, 800)
+        try:
+            where.open(f"{tables.as_uri()}#lesson=4")
+            self.assertEqual(where.run("return document.querySelector('h1').textContent"), recording(tables)["lesson"]["title"])
+            self.assertEqual(where.run("return document.getElementById('lesson-text').textContent"), recording(tables)["lesson"]["steps"][3]["text"])
+            self.assertEqual(where.run("return document.querySelector('#lesson-text sub').textContent"), "_k")
+            self.assertEqual(where.run("return document.querySelector('#lesson-text sub i').getBoundingClientRect().width"), 0)
         finally:
             where.close()
 

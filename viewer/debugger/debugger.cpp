@@ -2,9 +2,7 @@
 #include "viewer/debugger/debugger.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <fstream>
 
 #include "kernel/error.h"
 
@@ -126,6 +124,7 @@ void Debugger::ask_history(const HistorySubject& subject) {
   const std::uint64_t home = position();
   try {
     history_ = history_of(file_, replay_, subject);
+    news = News::history;
   } catch (const Error&) {
     replay_.seek(home);
     throw;
@@ -143,18 +142,11 @@ void Debugger::list_calls(const Condition& condition) {
   std::vector<std::uint32_t> calls = find_all(source(), condition);
   replay_.seek(home);
   found_ = {condition, std::move(calls)};
+  news = News::found;
 }
 
 void Debugger::compare_with(const std::filesystem::path& file) {
   other_ = {file, compare_runs(file_, TraceFile(file))};
-}
-
-bool is_trace(const std::filesystem::path& file) {
-  constexpr std::string_view kMagic = "TETTRAC\n";
-  std::array<char, kMagic.size()> begin{};
-  std::ifstream in(file, std::ios::binary);
-  return in.read(begin.data(), begin.size()) &&
-         std::string_view(begin.data(), begin.size()) == kMagic;
 }
 
 }  // namespace tetmend::viewer

@@ -120,6 +120,9 @@ class Debugger {
   void list_calls(const Condition& condition);
   const std::optional<FoundCalls>& found() const { return found_; }
   void forget_found() { found_.reset(); }
+  /// What was asked for last, until a window has shown it.
+  enum class News { none, history, found };
+  News news = News::none;
   /// @throws Error as TraceFile does. Cost: see compare_runs().
   void compare_with(const std::filesystem::path& file);
   const std::optional<OtherRun>& other() const { return other_; }
@@ -151,8 +154,5 @@ class Debugger {
   std::optional<Lesson> lesson_;
   double unplayed_ = 0;  // share of an event
 };
-
-/// True if the file begins as traces do. False also if it cannot be read.
-bool is_trace(const std::filesystem::path& file);
 
 }  // namespace tetmend::viewer

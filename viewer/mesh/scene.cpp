@@ -12,6 +12,7 @@
 
 #include <fmt/format.h>
 
+#include "kernel/grouped.h"
 #include "viewer/mesh/tet_triangles.h"
 
 namespace tetmend::viewer {
@@ -223,8 +224,8 @@ void SceneWork::write_note() {
     scene_.note += (scene_.note.empty() ? "" : "; ") + text;
   };
   if (k_.bad_count_ > in_.most_bad) {
-    note(fmt::format("{} bad tets: the worst {} are seen through the rest", k_.bad_count_,
-                     in_.most_bad));
+    note(fmt::format("{} bad tets: the worst {} are seen through the rest", grouped(k_.bad_count_),
+                     grouped(in_.most_bad)));
   }
   if (triangles_.is_shrunk() && !shrinks_all()) {
     note("many tets: only the outer two layers are drawn shrunk");

@@ -134,6 +134,14 @@ bool begin(const char* name, const Area& area, ImGuiWindowFlags more = 0) {
   return true;
 }
 
+/// The panel has the answer to what was asked for last, and nobody has seen it yet.
+bool is_news(const Panel& panel, const Debugger* debugger) {
+  if (debugger == nullptr) return false;
+  using News = Debugger::News;
+  return (debugger->news == News::history && panel.draw == &draw_history_panel) ||
+         (debugger->news == News::found && panel.draw == &draw_found_panel);
+}
+
 void list_panels(Session& session, const std::function<bool(const Panel&)>& is_wanted) {
   const bool has_trace = session.document.debugger() != nullptr;
   for (const Panel& panel : panels()) {
@@ -143,6 +151,9 @@ void list_panels(Session& session, const std::function<bool(const Panel&)>& is_w
     if (is_main && (panel.is_needed == nullptr || panel.is_needed(session.document))) {
       ImGui::SetNextItemOpen(true, ImGuiCond_Once);
     }
+    const bool comes_into_sight = is_news(panel, session.document.debugger());
+    if (comes_into_sight) ImGui::SetNextItemOpen(true);
+    const ImVec2 corner = ImGui::GetCursorScreenPos();
     const bool is_open = ImGui::CollapsingHeader(panel.title);
     ImGui::PopID();
     if (!is_open) continue;
@@ -150,6 +161,11 @@ void list_panels(Session& session, const std::function<bool(const Panel&)>& is_w
     panel.draw(session);
     ImGui::PopID();
     ImGui::Spacing();
+    if (!comes_into_sight || session.document.debugger() == nullptr) continue;
+    session.document.debugger()->news = Debugger::News::none;
+    ImGui::ScrollToRect(ImGui::GetCurrentWindow(),
+                        {corner, {corner.x, ImGui::GetCursorScreenPos().y}},
+                        ImGuiScrollFlags_KeepVisibleEdgeY);
   }
 }
 
@@ -157,10 +173,13 @@ void list_side(Session& session, Side side) {
   list_panels(session, [&](const Panel& panel) { return panel.side == side; });
 }
 
-/// Panels of a trace where there is one column. Where one enters a call or leaves all, the tab for that
-/// comes to the front.
+/// Panels of a trace where there is one column. Where one enters a call or leaves all, or asks for
+/// something, the tab for that comes to the front.
 void list_in_tabs(Session& session, bool enters, bool leaves) {
   if (!ImGui::BeginTabBar("##tabs")) return;
+  const Debugger::News news = session.document.debugger()->news;
+  enters = news == Debugger::News::history || (enters && news == Debugger::News::none);
+  leaves = news == Debugger::News::found || (leaves && news == Debugger::News::none);
   const auto tab = [&](const char* title, bool comes, auto... is_wanted) {
     const ImGuiTabItemFlags flags = comes ? ImGuiTabItemFlags_SetSelected : 0;
     if (!ImGui::BeginTabItem(title, nullptr, flags)) return;
@@ -172,9 +191,11 @@ void list_in_tabs(Session& session, bool enters, bool leaves) {
   tab("Calls", leaves, [&](const Panel& panel) {
     return panel.side == Side::left && !is_mesh(panel) && !is_shell(panel);
   });
-  const auto is_of_pause = [](const Panel& panel) { return panel.draw == &draw_parameters_panel; };
-  tab("Call", enters, is_of_pause, is_shell, [&](const Panel& panel) {
-    return panel.side == Side::right && !is_mesh(panel) && !is_of_pause(panel);
+  const auto is_to_act = [](const Panel& panel) {
+    return panel.draw == &draw_trial_panel || panel.draw == &draw_parameters_panel;
+  };
+  tab("Call", enters, is_to_act, is_shell, [&](const Panel& panel) {
+    return panel.side == Side::right && !is_mesh(panel) && !is_to_act(panel);
   });
   tab("Mesh", false, is_mesh);
   ImGui::EndTabBar();
@@ -301,6 +322,7 @@ void show_opening(const Opening& opening) {
   ImGui::SetNextWindowPos({window.x / 2, window.y / 2}, ImGuiCond_Always, {0.5F, 0.5F});
   ImGui::SetNextWindowSize({kWidth * ImGui::GetFontSize(), 0});
   ImGui::SetNextWindowFocus();
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 1);
   ImGui::Begin("##opening", nullptr,
                ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoTitleBar |
                    ImGuiWindowFlags_NoFocusOnAppearing);
@@ -308,6 +330,7 @@ void show_opening(const Opening& opening) {
   ImGui::ProgressBar(static_cast<float>(opening.share()), {-1, 0}, opening.stage().data());
   ImGui::TextDisabled("%.0f s", opening.seconds());
   ImGui::End();
+  ImGui::PopStyleVar();
 }
 
 /// Words over the picture are as large as those of the panels.
@@ -395,7 +418,7 @@ void Interface::build(Session& session) {
   const bool is_whole = guarded(document, [&] {
     if (document.show_panels) {
       choice = menu(document);
-      if (!document.has_mesh()) {
+      if (!document.has_mesh() && document.opening() == nullptr) {
         Choice at_start = start_page_.draw(document, scale_);
         if (at_start.command != nullptr) choice = std::move(at_start);
       }

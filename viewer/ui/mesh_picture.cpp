@@ -87,7 +87,10 @@ void MeshPicture::draw(const ImVec2& corner, const ImVec2& size) const {
     }
     list.AddTriangleFilled(at[0], at[1], at[2], triangle.colour);
     if (look_ == Look::glass) {
-      list.AddTriangle(at[0], at[1], at[2], ImGui::GetColorU32(ImGuiCol_Text, 0.45F));
+      // One by one: at a sharp corner a closed line ends in a spike.
+      for (int k = 0; k < 3; ++k) {
+        list.AddLine(at[k], at[(k + 1) % 3], ImGui::GetColorU32(ImGuiCol_Text, 0.45F));
+      }
     }
   }
   list.Flags = flags;

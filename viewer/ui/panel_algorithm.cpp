@@ -86,9 +86,12 @@ float algorithm_height(const Session& session) {
   constexpr float kMostLines = 16;
   const Debugger& debugger = *session.document.debugger();
   const auto& stack = debugger.stack();
-  const bool has_code =
-      !stack.empty() || pass_place(debugger.file(), stack, debugger.position()).code != nullptr;
-  if (!has_code) return 0;
+  const CodePlace here =
+      stack.empty() ? pass_place(debugger.file(), stack, debugger.position())
+                    : code_place(debugger.file(), stack, stack.size() - 1, debugger.position());
+  if (here.code == nullptr) {  // a line says so
+    return stack.empty() ? 0 : ImGui::GetTextLineHeight() + 2 * ImGui::GetStyle().WindowPadding.y;
+  }
   return kMostLines * (ImGui::GetTextLineHeight() + kGap) +
          (kCallerLines + 1) * ImGui::GetTextLineHeightWithSpacing() +
          2 * ImGui::GetStyle().WindowPadding.y;

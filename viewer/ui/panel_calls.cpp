@@ -149,11 +149,11 @@ void list_rows(Session& session, float height) {
   const std::vector<CallRow>& rows = debugger.rows();
   constexpr ImGuiTableFlags kLooks = ImGuiTableFlags_RowBg | ImGuiTableFlags_ScrollY;
   if (!ImGui::BeginTable("##calls", 3, kLooks, {0, height})) return;
-  const float font = ImGui::GetFontSize();
   ImGui::TableSetupScrollFreeze(0, 1);
   ImGui::TableSetupColumn("level, operator, target", ImGuiTableColumnFlags_WidthStretch);
-  ImGui::TableSetupColumn("degree", ImGuiTableColumnFlags_WidthFixed, 3.4F * font);
-  ImGui::TableSetupColumn("worst q", ImGuiTableColumnFlags_WidthFixed, 7.2F * font);
+  // As wide as what is in sight: the rest is for operator and target.
+  ImGui::TableSetupColumn("degree", ImGuiTableColumnFlags_WidthFixed);
+  ImGui::TableSetupColumn("worst q", ImGuiTableColumnFlags_WidthFixed);
   ImGui::TableHeadersRow();
   scroll_to(rows, debugger);
   ImGuiListClipper clipper;

@@ -16,12 +16,6 @@ namespace tetmend::viewer::ui {
 
 namespace {
 
-void right_aligned(const std::string& text) {
-  const float room = ImGui::GetContentRegionAvail().x - ImGui::CalcTextSize(text.c_str()).x;
-  if (room > 0) ImGui::SetCursorPosX(ImGui::GetCursorPosX() + room);
-  ImGui::TextUnformatted(text.c_str());
-}
-
 /// A click lists the calls.
 void count_cell(std::size_t count, const std::string& condition, std::string& chosen) {
   ImGui::TableNextColumn();
@@ -77,6 +71,18 @@ void show_endings(const LedgerRow& row, const LedgerRow* there, std::string& cho
   }
 }
 
+/// Its name, whole, in two lines where there is no room for one. True: unfolded.
+bool show_operator(const std::string& name) {
+  const ImVec2 padding = {0.1F * ImGui::GetFontSize(), ImGui::GetStyle().FramePadding.y};
+  ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, padding);
+  const float room = ImGui::GetContentRegionAvail().x - ImGui::GetTreeNodeToLabelSpacing();
+  const bool is_unfolded = ImGui::TreeNodeEx(name.c_str(), ImGuiTreeNodeFlags_NoTreePushOnOpen,
+                                             "%s", in_lines(short_name(name), room).c_str());
+  ImGui::PopStyleVar();
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", name.c_str());
+  return is_unfolded;
+}
+
 /// Rows of operators, who refused most first; unfolded, a row for each way to end.
 void show_rows(Debugger& debugger, std::string& chosen) {
   constexpr ImGuiTableFlags kLooks = ImGuiTableFlags_RowBg;
@@ -98,16 +104,14 @@ void show_rows(Debugger& debugger, std::string& chosen) {
         std::max(ImGui::CalcTextSize(longest.c_str()).x, ImGui::CalcTextSize(title).x);
     ImGui::TableSetupColumn(title, ImGuiTableColumnFlags_WidthFixed, width);
   }
-  ImGui::TableHeadersRow();
+  headers_row(1);
   std::vector<LedgerRow> other;
   for (const LedgerRow& row : rows) {
     const std::string name(row.operator_name);
     const LedgerRow* there = row_there(debugger, name, other);
     ImGui::TableNextRow();
     ImGui::TableNextColumn();
-    const bool is_unfolded = ImGui::TreeNodeEx(name.c_str(), ImGuiTreeNodeFlags_NoTreePushOnOpen,
-                                               "%s", short_name(row.operator_name).c_str());
-    if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", name.c_str());
+    const bool is_unfolded = show_operator(name);
     const std::string of = fmt::format("operator {}", name);
     count_cell(row.total().calls, of, chosen);
     count_cell(row.cell(CallEnding::for_good).calls, of + " and accepted for good", chosen);
@@ -222,7 +226,7 @@ void draw_found_panel(Session& session) {
   constexpr float kRows = 8;
   if (ImGui::BeginTable("##found", 2, kLooks, {0, kRows * ImGui::GetTextLineHeightWithSpacing()})) {
     ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthStretch);
-    ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthFixed, 9 * ImGui::GetFontSize());
+    ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthFixed);  // as wide as what is in sight
     ImGuiListClipper clipper;
     clipper.Begin(static_cast<int>(found.calls.size()));
     while (clipper.Step()) {

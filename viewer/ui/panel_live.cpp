@@ -8,6 +8,7 @@
 #include <imgui_stdlib.h>
 
 #include "kernel/error.h"
+#include "kernel/grouped.h"
 #include "viewer/live/operator_schedule.h"
 #include "viewer/ui/panels.h"
 #include "viewer/ui/wrapped_text.h"
@@ -156,8 +157,8 @@ void buttons(Session& session, LiveState state) {
 void tell_progress(const LiveProgress& run) {
   if (run.state == LiveState::idle) return;
   const std::string state(to_string(run.state));
-  ImGui::TextWrapped("%s, %.1f s, %zu of %zu calls accepted", state.c_str(), run.seconds,
-                     run.accepted, run.attempts);
+  wrapped_text(fmt::format("{}, {:.1f} s, {} of {} calls accepted", state, run.seconds,
+                           grouped(run.accepted), grouped(run.attempts)));
   const std::string phase = fmt::format("{} {}", run.round, run.phase);
   ImGui::ProgressBar(static_cast<float>(run.share), {-1, 0}, phase.c_str());
   if (!run.breakpoint.empty()) ImGui::TextWrapped("breakpoint: %s", run.breakpoint.c_str());

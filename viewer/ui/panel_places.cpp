@@ -5,6 +5,7 @@
 
 #include "kernel/grouped.h"
 #include "viewer/ui/panels.h"
+#include "viewer/ui/wrapped_text.h"
 
 namespace tetmend::viewer::ui {
 
@@ -18,7 +19,7 @@ void draw_places_panel(Session& session) {
   ImGui::TableSetupColumn("bad tets", ImGuiTableColumnFlags_WidthStretch);
   ImGui::TableSetupColumn("of all", ImGuiTableColumnFlags_WidthFixed);
   ImGui::TableSetupColumn("worst", ImGuiTableColumnFlags_WidthFixed);
-  ImGui::TableHeadersRow();
+  headers_row(1);
   const auto places = document.bad_places();  // a click moves the camera alone
   const auto most = static_cast<float>(places.empty() ? 1 : places.front().bad);
   for (std::size_t i = 0; i < places.size(); ++i) {
@@ -36,9 +37,10 @@ void draw_places_panel(Session& session) {
     }
     ImGui::PopID();
     ImGui::TableNextColumn();
-    ImGui::Text("%.0f %%", 100 * static_cast<double>(place.bad) / static_cast<double>(place.tets));
+    right_aligned(fmt::format(
+        "{:.0f} %", 100 * static_cast<double>(place.bad) / static_cast<double>(place.tets)));
     ImGui::TableNextColumn();
-    ImGui::Text("%.4f", static_cast<double>(place.q_worst));
+    right_aligned(fmt::format("{:.4f}", place.q_worst));
   }
   ImGui::EndTable();
 }

@@ -139,7 +139,8 @@ void list_chords(Document& document, const ShellPicture& shell) {
 }
 
 /// All in the same ball, so that one can be laid over the other; seen as in the large picture.
-void show_tets(Document& document, const CallStudy& study, float side) {
+/// `right`: where the later ones begin, beside the earlier ones; 0: below.
+void show_tets(Document& document, const CallStudy& study, float side, float right = 0) {
   const auto ball = ball_around(study);
   if (!ball) return;
   ViewSettings& view = document.view;
@@ -155,14 +156,19 @@ void show_tets(Document& document, const CallStudy& study, float side) {
                                  draw(study.after, kOpacity * view.blend)};
     return show_blended(document, drawings, side);
   }
+  ImGui::BeginGroup();
   ImGui::Text("before: %zu tets", study.before.size());
   show_linked("##before", draw(study.before, kOpacity), side, document);
+  ImGui::EndGroup();
+  if (right > 0) ImGui::SameLine(right);
+  ImGui::BeginGroup();
   if (study.after.empty()) {
     ImGui::TextDisabled("nothing was tried");
   } else {
     ImGui::Text("%s: %zu tets", name, study.after.size());
     show_linked("##after", draw(study.after, kOpacity), side, document);
   }
+  ImGui::EndGroup();
 }
 
 }  // namespace
@@ -183,10 +189,10 @@ void draw_shell_panel(Session& session) {
     ImGui::EndGroup();
     ImGui::SameLine(0.64F * width);
   }
+  if (!has_polygon) return show_tets(document, *study, 0.45F * width, 0.5F * width);
   ImGui::BeginGroup();
   show_tets(document, *study, 0.35F * width);
   ImGui::EndGroup();
-  if (!has_polygon) return;
   list_chords(document, *polygon->shell);
   show_tables(document, *polygon->shell);
 }

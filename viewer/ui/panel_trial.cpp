@@ -62,16 +62,17 @@ void draw_trial_panel(Session& session) {
   const unsigned calls = document.trial()->call().subtree_end;
   ImGui::TextDisabled("%.2f ms, %u %s", 1000 * document.trial()->seconds(), calls,
                       calls == 1 ? "call" : "calls");
-  const OperatorInfo& info =
-      document.live.registry().find(document.trial()->request().operator_name);
-  edit_settings(document, info);
+  // Above the parameters, so that they are in sight however many there are.
   const Command& keep = find_command("keep");
   const Command& undo = find_command("undo");
   if (document.trial()->is_accepted()) {
     if (ImGui::Button("Keep")) return run_from_window(keep, session);
     ImGui::SameLine();
   }
-  if (ImGui::Button("Undo")) run_from_window(undo, session);
+  if (ImGui::Button("Undo")) return run_from_window(undo, session);
+  const OperatorInfo& info =
+      document.live.registry().find(document.trial()->request().operator_name);
+  edit_settings(document, info);
 }
 
 }  // namespace tetmend::viewer::ui

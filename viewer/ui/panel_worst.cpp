@@ -7,19 +7,9 @@
 #include <imgui.h>
 
 #include "viewer/ui/panels.h"
+#include "viewer/ui/wrapped_text.h"
 
 namespace tetmend::viewer::ui {
-
-namespace {
-
-/// Numbers end in one line.
-void right_aligned(const std::string& text) {
-  const float room = ImGui::GetContentRegionAvail().x - ImGui::CalcTextSize(text.c_str()).x;
-  if (room > 0) ImGui::SetCursorPosX(ImGui::GetCursorPosX() + room);
-  ImGui::TextUnformatted(text.c_str());
-}
-
-}  // namespace
 
 void draw_worst_panel(Session& session) {
   Document& document = session.document;
@@ -36,7 +26,7 @@ void draw_worst_panel(Session& session) {
   ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthFixed, rank);
   ImGui::TableSetupColumn("tet", ImGuiTableColumnFlags_WidthFixed, number);
   ImGui::TableSetupColumn(document.view.scene.measure.c_str(), ImGuiTableColumnFlags_WidthStretch);
-  ImGui::TableHeadersRow();
+  headers_row(1);
   const auto place = document.place_among_worst();
   const auto values = document.values();
   const std::vector<TetHandle> worst = document.worst();

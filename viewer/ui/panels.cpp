@@ -12,7 +12,13 @@ std::span<const Panel> panels() {
   constexpr auto kIsOutside = [](const Document& d) { return d.debugger()->call() == kNoCall; };
   constexpr auto kIsInside = [](const Document& d) { return d.debugger()->call() != kNoCall; };
   constexpr auto kHasTrial = [](const Document& d) { return d.trial() != nullptr; };
-  constexpr auto kHasFound = [](const Document& d) { return d.debugger()->found().has_value(); };
+  // Below what lists them: the ledger, or the box for conditions.
+  constexpr auto kHasFoundOutside = [](const Document& d) {
+    return d.debugger()->call() == kNoCall && d.debugger()->found().has_value();
+  };
+  constexpr auto kHasFoundInside = [](const Document& d) {
+    return d.debugger()->call() != kNoCall && d.debugger()->found().has_value();
+  };
   // A list of the worst does not tell where the others are.
   constexpr auto kHasMany = [](const Document& d) {
     constexpr std::size_t kMany = 1000;
@@ -21,11 +27,12 @@ std::span<const Panel> panels() {
   constexpr auto kIsPause = [](const Document& d) {
     return d.debugs_live() && d.live.state() == LiveState::paused;
   };
-  static constexpr std::array<Panel, 19> kPanels = {
+  static constexpr std::array<Panel, 20> kPanels = {
       {{"Ledger", left, trace, &draw_ledger_panel, nullptr, kIsOutside},
+       {"Calls found", left, trace, &draw_found_panel, nullptr, kHasFoundOutside},
        {"Calls", left, trace, &draw_calls_panel},
        {"Run to, breakpoints, bookmarks", left, trace, &draw_breakpoints_panel},
-       {"Calls found", left, trace, &draw_found_panel, nullptr, kHasFound},
+       {"Calls found", left, trace, &draw_found_panel, nullptr, kHasFoundInside},
        {"Shell", left, trace, &draw_shell_panel, nullptr, kIsInside},
        {"Ledger of the run", left, trace, &draw_ledger_panel, [](const Document&) { return false; },
         kIsInside},

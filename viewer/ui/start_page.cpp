@@ -143,6 +143,7 @@ Choice StartPage::draw(const Document& document, float scale) {
   const float width = std::min(kWidth * scale, window.x);
   ImGui::SetNextWindowPos({window.x / 2, window.y / 2}, ImGuiCond_Always, {0.5F, 0.5F});
   ImGui::SetNextWindowSizeConstraints({width, 0}, {width, 0.92F * window.y});
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 1);
   ImGui::Begin("##start", nullptr, kPage | ImGuiWindowFlags_AlwaysAutoResize);
   const float inside = ImGui::GetContentRegionAvail().x;
   ImGui::SetWindowFontScale(1.6F);
@@ -159,6 +160,7 @@ Choice StartPage::draw(const Document& document, float scale) {
     if (listed.command != nullptr) choice = std::move(listed);
   }
   ImGui::End();
+  ImGui::PopStyleVar();
   return choice;
 }
 

@@ -22,24 +22,6 @@ std::string_view call_in_front(std::string_view text) {
   return end == kCall.size() ? std::string_view() : text.substr(0, end);
 }
 
-/// With line breaks, none of them inside a number or the name of a call.
-std::string in_lines(std::string_view text, float width) {
-  std::string lines;
-  std::size_t line = 0;  // where it begins in `lines`
-  while (!text.empty()) {
-    const std::size_t least = call_in_front(text).size();
-    const std::string_view word = text.substr(0, text.find(' ', least));
-    text.remove_prefix(std::min(word.size() + 1, text.size()));
-    const std::size_t before = lines.size();
-    if (before > line) lines += ' ';
-    lines += word;
-    if (before == line || ImGui::CalcTextSize(lines.c_str() + line).x <= width) continue;
-    lines[before] = '\n';
-    line = before + 1;
-  }
-  return lines;
-}
-
 /// Lies over a word that is drawn already.
 bool show_call_link(const ImVec2& at, std::string_view word) {
   const char* end = word.data() + word.size();
@@ -56,6 +38,23 @@ bool show_call_link(const ImVec2& at, std::string_view word) {
 }
 
 }  // namespace
+
+std::string in_lines(std::string_view text, float width) {
+  std::string lines;
+  std::size_t line = 0;  // where it begins in `lines`
+  while (!text.empty()) {
+    const std::size_t least = call_in_front(text).size();
+    const std::string_view word = text.substr(0, text.find(' ', least));
+    text.remove_prefix(std::min(word.size() + 1, text.size()));
+    const std::size_t before = lines.size();
+    if (before > line) lines += ' ';
+    lines += word;
+    if (before == line || ImGui::CalcTextSize(lines.c_str() + line).x <= width) continue;
+    lines[before] = '\n';
+    line = before + 1;
+  }
+  return lines;
+}
 
 void wrapped_text(std::string_view text) {
   ImGui::TextUnformatted(in_lines(text, ImGui::GetContentRegionAvail().x).c_str());
@@ -88,6 +87,32 @@ CallsInText wrapped_text_with_calls(std::string_view text) {
   }
   ImGui::SetCursorScreenPos(below);
   return calls;
+}
+
+namespace {
+
+void move_right(const char* text) {
+  const float room = ImGui::GetContentRegionAvail().x - ImGui::CalcTextSize(text).x;
+  if (room > 0) ImGui::SetCursorPosX(ImGui::GetCursorPosX() + room);
+}
+
+}  // namespace
+
+void right_aligned(const std::string& text) {
+  move_right(text.c_str());
+  ImGui::TextUnformatted(text.c_str());
+}
+
+void headers_row(int first_number) {
+  ImGui::TableNextRow(ImGuiTableRowFlags_Headers);
+  for (int i = 0; i < ImGui::TableGetColumnCount(); ++i) {
+    if (!ImGui::TableSetColumnIndex(i)) continue;
+    const char* title = ImGui::TableGetColumnName(i);
+    if (i >= first_number) move_right(title);
+    ImGui::PushID(i);
+    ImGui::TableHeader(title);
+    ImGui::PopID();
+  }
 }
 
 }  // namespace tetmend::viewer::ui

@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: MIT
-// Paragraphs in panels.
+// Paragraphs in panels, and numbers in tables.
 #pragma once
 
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <string_view>
 
 namespace tetmend::viewer::ui {
 
+/// The text with line breaks, none of them inside a number or the name of a call: lines are at most so
+/// wide, but for words that are wider.
+std::string in_lines(std::string_view text, float width);
 /// Like ImGui::TextWrapped, but breaks lines at spaces only: never inside a number.
 void wrapped_text(std::string_view text);
 
@@ -17,5 +21,11 @@ struct CallsInText {
 };
 /// The same; each "call 17" in it is a link.
 CallsInText wrapped_text_with_calls(std::string_view text);
+
+/// Numbers end in one line: at the right of the room that there is.
+void right_aligned(const std::string& text);
+/// The heads of the columns of a table, as ImGui::TableHeadersRow, those from `first_number` on over
+/// numbers that are right_aligned().
+void headers_row(int first_number);
 
 }  // namespace tetmend::viewer::ui

@@ -79,15 +79,20 @@ function giveAnswer(n, isRight, given) {
   show();
 }
 
+/** Parts of a text: "M_q" and "p_i" as print has them. The underscore stays, for whoever copies or hears it. */
+function withIndices(text) {
+  return text.split(/\b([A-Za-z]_[a-z0-9])\b/).map((part, n) => n % 2 === 0 ? part : make("span", {class: "index"}, part[0], make("sub", {}, make("i", {}, "_"), part.slice(2))));
+}
+
 function showQuestion(n) {
   const ask = isOnStage() ? questionAt(n) : null;
   byId("ask").hidden = !ask;
   if (!ask) return;
-  byId("ask-text").textContent = ask.text;
+  byId("ask-text").replaceChildren(...withIndices(ask.text));
   const answer = answers.get(n);
   byId("choices").replaceChildren(...CHOICES[ask.kind](n, ask, answer));
   const mark = answer?.isRight ? make("b", {class: "yes"}, "\u2713 Right. ") : make("b", {class: "no"}, "\u2717 Not so. ");
-  byId("answered").replaceChildren(...(answer ? [mark, ask.why] : []));
+  byId("answered").replaceChildren(...(answer ? [mark, ...withIndices(ask.why)] : []));
 }
 
 /** What there is to press, by kind of question; of some it is in the panels. */
@@ -164,7 +169,7 @@ function askForChord(n, ask, shell) {
   const reach = Math.min(0.22, 0.45 * 2 * Math.PI * 0.9 / shell.ring.length);  // of fingers
   shell.ring.forEach((vertex, i) => {
     const [cx, cy] = ringPlace(shell, i, 0.9);
-    const spot = svgElement("circle", {cx, cy, r: 0.095, class: "pick", tabindex: 0, role: "button", "aria-label": `corner ${vertex}`, "aria-pressed": String(vertex === firstCorner), "data-corner": vertex});
+    const spot = svgElement("circle", {cx, cy, r: 0.08, class: "pick", tabindex: 0, role: "button", "aria-label": `corner ${vertex}`, "aria-pressed": String(vertex === firstCorner), "data-corner": vertex});
     spot.addEventListener("keydown", (event) => {
       if (!["Enter", " "].includes(event.key)) return;
       event.preventDefault();
@@ -191,7 +196,7 @@ function showLesson(step, call) {
   if (!lesson) return;
   if (!isOnStage()) place.lesson = lessonStep(step.position);
   const n = place.lesson;
-  byId("lesson-text").textContent = n < 0 ? lesson.title : lesson.steps[n].text;
+  byId("lesson-text").replaceChildren(...withIndices(n < 0 ? lesson.title : lesson.steps[n].text));
   byId("lesson-count").textContent = `${n + 1} of ${lesson.steps.length}`;
   const {questions, answered, right} = score();
   byId("score").textContent = questions === 0 ? "" : answered === 0 ? `${questions} question${questions === 1 ? "" : "s"}` : `${right} right of ${answered}`;

@@ -156,7 +156,7 @@ function ballInView(call, places) {
 function showPlace(step, cells) {
   byId("slider").value = place.step;
   const first = steps[0].position;  // of a page of one call: far into the trace
-  byId("count").textContent = `step ${step.position - first}${cells ? `, cell ${place.cell}/${cells}` : ""} of ${steps[steps.length - 1].position - first}`;
+  byId("count").textContent = `step ${step.position - first} of ${steps[steps.length - 1].position - first}${cells ? `, cell ${place.cell} of ${cells}` : ""}`;
   byId("count").title = `after ${step.position} events of the trace`;
   const isFirst = place.step === 0 && place.cell === 0;
   const isLast = place.step === steps.length - 1;
@@ -331,6 +331,14 @@ function describeOrigin() {
   if (damage) parts.push(damage);
   if (recording.deepest !== undefined) parts.push(`calls with more than ${recording.deepest} calls around them are one step each, to keep the page small`);
   byId("origin").textContent = parts.join(" \u00b7 ");
+  // On a phone it would be three lines before the picture.
+  const narrow = matchMedia("(max-width: 40rem)");
+  const house = byId("origin").parentElement;
+  const settle = () => (narrow.matches ? document.querySelector("main") : house).append(byId("origin"));
+  narrow.addEventListener("change", settle);
+  settle();
+  const heading = document.querySelector("h1");
+  heading.replaceChildren(...withIndices(heading.textContent));
 }
 
 function begin() {

@@ -100,10 +100,3 @@ TEST_CASE("the deepest call has the most calls around it") {
   CHECK(deepest.depth > 1);
   for (const Call& call : debugger.file().calls()) CHECK(call.depth <= deepest.depth);
 }
-
-TEST_CASE("a trace is known by its first bytes") {
-  const test::HandmadeTrace trace;
-  CHECK(is_trace(trace.path()));
-  CHECK_FALSE(is_trace(TETMEND_SOURCE_DIR "/assets/meshes/sheet.mesh"));
-  CHECK_FALSE(is_trace("missing.trace"));
-}

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: MIT
 // How many keys and clicks a question takes, in a window of 1280 x 800.
+#include <algorithm>
+#include <limits>
+
 #include <doctest/doctest.h>
 
 #include "tests/support/example_traces.h"
@@ -13,6 +16,7 @@ using namespace tetmend::test;
 namespace {
 
 constexpr const char* kSize = "1280x800";
+constexpr int kFirstFound = 600;  // height of the first of the calls found
 
 /// Moving the mouse is no action; a key and a click are.
 class Hand {
@@ -45,14 +49,32 @@ TEST_CASE(
   wait_until_still();
   Hand hand;
   hand.click(1245, 170);  // what the first row has under "refused"
-  const auto state = viewer.quit();
-  CHECK(state["trace"]["found"]["condition"] ==
-        fmt::format("operator {} and refused", rows.front().operator_name));
-  CHECK(state["trace"]["found"]["calls"] == rows.front().refused().calls);
   CHECK(hand.actions <= 2);
+  SUBCASE("listed") {
+    const auto state = viewer.quit();
+    CHECK(state["trace"]["found"]["condition"] ==
+          fmt::format("operator {} and refused", rows.front().operator_name));
+    CHECK(state["trace"]["found"]["calls"] == rows.front().refused().calls);
+  }
+  SUBCASE("and in sight, the nearest to being accepted first") {
+    wait_until_still();
+    hand.click(950, kFirstFound);
+    CHECK(hand.actions <= 2);
+    const auto state = viewer.quit();
+    REQUIRE(state["trace"]["call"].is_object());
+    const Call& entered = file.calls()[state["trace"]["call"]["number"].get<std::size_t>()];
+    CHECK(file.name(entered.operator_name) == rows.front().operator_name);
+    double least = std::numeric_limits<double>::infinity();
+    for (const Call& call : file.calls()) {
+      const bool is_one = file.name(call.operator_name) == rows.front().operator_name &&
+                          call.verdict && !call.accepted();
+      if (is_one) least = std::min(least, call.missing());
+    }
+    CHECK(entered.missing() == least);
+  }
 }
 
-TEST_CASE("an operator is tried on a picked tet by two clicks, and undone by one") {
+TEST_CASE("an operator is tried on a picked tet by two clicks") {
   if (!can_test_window()) return;
   Viewer viewer("sheet.mesh", kSize);
   wait_until_still();
