@@ -62,7 +62,8 @@ void write_pvtu(const std::filesystem::path& file, std::span<const std::string> 
     out.put(fmt::format("<{}>\n", name));
     for (const PvtuArray& array : arrays) {
       out.put(fmt::format("<PDataArray type=\"{}\" Name=\"{}\"{}/>\n", array.type,
-                          formats::xml_escaped(array.name), formats::vtu_components(array.components)));
+                          formats::xml_escaped(array.name),
+                          formats::vtu_components(array.components)));
     }
     out.put(fmt::format("</{}>\n", name));
   };
