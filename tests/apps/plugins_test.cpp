@@ -168,6 +168,8 @@ TEST_CASE("check-plugin says what is wrong with each operator and ends with stat
 
 TEST_CASE("wrong usage of check-plugin is status 2") {
   check_complaint(run_program({"check-plugin"}), 2);
-  check_complaint(run_program({"check-plugin", plugin_file("sound"), "--mesh", "part.stl"}), 2);
+  const std::string plugin = plugin_file("sound");
+  check_complaint(run_program({"check-plugin", plugin, "--mesh", plugin}), 2);  // is no mesh
+  check_complaint(run_program({"check-plugin", plugin, "--mesh", "nowhere.stl"}), 1);
   check_complaint(run_program({"check-plugin", plugin_file("sound"), "more"}), 2);
 }
