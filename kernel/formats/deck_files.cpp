@@ -12,7 +12,7 @@
 
 namespace tetmend::formats {
 
-DeckFiles::DeckFiles(const std::filesystem::path& deck) {
+DeckFiles::DeckFiles(const std::filesystem::path& deck, std::size_t deepest) : deepest_(deepest) {
   open(deck);
 }
 
@@ -36,10 +36,7 @@ const InputFile* DeckFiles::include(const std::filesystem::path& path, const Sta
   if (open_.contains(place_of_included(path))) {
     fail(fmt::format("{} includes itself: expected another file", in_quotes(statement.name)));
   }
-  constexpr std::size_t kDeepest = 1000;
-  if (open_.size() > kDeepest) fail("more than 1,000 files include each other");
-  constexpr std::size_t kMostInclusions = 10000;
-  if (++inclusions_ > kMostInclusions) fail("more than 10,000 files are included");
+  if (open_.size() > deepest_) fail("too many files include each other");
   const InputFile* file = nullptr;
   try {
     file = &open(path);
@@ -47,6 +44,7 @@ const InputFile* DeckFiles::include(const std::filesystem::path& path, const Sta
     reason = error.what();
     return nullptr;
   }
+  if (++inclusions_ > kMostInclusions) fail("more than 10,000 files are included");
   included_ += file->size();
   if (is_bomb(size_of_files_, included_)) {
     fail("the same files are included again and again, hundreds of times their size");

@@ -19,8 +19,11 @@ namespace tetmend::formats {
 /// Each file is read once, however often it is included.
 class DeckFiles {
  public:
+  static constexpr std::size_t kMostInclusions = 10000;
+
+  /// @param deepest  how many files may be nested: readers call themselves for each
   /// @throws Error where the deck cannot be read
-  explicit DeckFiles(const std::filesystem::path& deck);
+  explicit DeckFiles(const std::filesystem::path& deck, std::size_t deepest = 1000);
   DeckFiles(const DeckFiles&) = delete;
   DeckFiles& operator=(const DeckFiles&) = delete;
 
@@ -64,6 +67,7 @@ class DeckFiles {
   std::vector<const InputFile*> all_;
   std::vector<std::filesystem::path> paths_;
   std::set<std::filesystem::path> open_;  // one in the other
+  std::size_t deepest_;
   std::size_t size_of_files_ = 0;
   std::size_t inclusions_ = 0;
   std::size_t included_ = 0;  // bytes, as often as they are

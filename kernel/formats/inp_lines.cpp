@@ -116,7 +116,8 @@ std::string_view InpBlock::value(std::string_view name) const {
   return found == nullptr ? std::string_view() : found->value;
 }
 
-InpLines::InpLines(const std::filesystem::path& file) : files_(file), folder_(file.parent_path()) {
+InpLines::InpLines(const std::filesystem::path& file)
+    : files_(file, DeckFiles::kMostInclusions), folder_(file.parent_path()) {
   includes.push_back({});
   read(files_.deck(), file, 0);
   choose_scopes();
