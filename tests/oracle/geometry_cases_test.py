@@ -48,11 +48,12 @@ def surface_nodes(file: Path, elements: set[str]) -> set:
 def thin_sheets(folder: Path) -> list[str]:
     mesh = meshed(folder, "thin-sheets")
     wrong = []
-    # The film is thinner than its mesh everywhere: its own faces force most of what is left.
-    for options, most in (((), 0.6), (("--layers", "improve"), 2000 / 3887)):
+    # The film is thinner than its mesh everywhere: its own faces force most of what is left, however many bad
+    # tets Gmsh made, which are 3,800 to 4,000 and others in each run.
+    for options, most in (((), 2200), (("--layers", "improve"), 2000)):
         report, text, _ = improved(mesh, *options)
         before, after = report["before"]["n_bad"], report["after"]["n_bad"]
-        if not (before > 3000 and after <= most * before):
+        if not (before > 3000 and after <= most):
             wrong.append(f"thin-sheets {options}: {before} bad tets became {after}")
         if "state after pass 0" in text:
             wrong.append(f"thin-sheets {options}: the whole run was thrown away")
