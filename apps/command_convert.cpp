@@ -164,6 +164,7 @@ void add_convert(CLI::App& app, Invocation& invocation) {
   command->add_option("IN", options->input, "Mesh to read")->required()->type_name("");
   command->add_option("OUT", options->output, "File to write; with --to another mesh to read")
       ->type_name("");
+  command->add_option("-o,--output", options->output, "The same as OUT")->type_name("OUT");
   command->add_option("MORE", options->more, "With --to: more meshes to read")->type_name("");
   command
       ->add_option(

@@ -127,21 +127,23 @@ Measurement measure_file(const QualityOptions& options, const MeasureOptions& wa
 }
 
 void print_text(const QualityOptions& options, const Measurement& measured) {
-  say(stdout, fmt::format("{}\n\n", shown(options.file)));
+  std::vector<std::string> blocks = {fmt::format("{}\n", shown(options.file))};
   if (const Goal& goal = options.run.goal; !(goal == Goal{})) {
-    say(stdout, fmt::format("bad tets: angles below {:g} or above {:g} degrees\n\n", goal.min_angle,
-                            goal.max_angle));
+    blocks.push_back(fmt::format("bad tets: angles below {:g} or above {:g} degrees\n",
+                                 goal.min_angle, goal.max_angle));
   }
   std::string notes = format_build(measured.build);
   for (const std::string& note : measured.notes) notes += fmt::format("note: {}\n", note);
-  if (!notes.empty()) say(stdout, fmt::format("{}\n", notes));
-  say(stdout, fmt::format("{}\n{}", format_statistics(measured.statistics, measured.measures),
-                          format_histogram(measured.statistics, nullptr)));
-  if (measured.rulers) say(stdout, fmt::format("\n{}", format_rulers(*measured.rulers, nullptr)));
-  if (measured.curved) say(stdout, fmt::format("\n{}", format_curved(*measured.curved, nullptr)));
-  if (measured.limit) say(stdout, fmt::format("\n{}", format_limit(*measured.limit)));
-  if (options.list > 0)
-    say(stdout, fmt::format("\n{}", format_bad_tets(measured.bad_tets, options.list)));
+  if (!notes.empty()) blocks.push_back(notes);
+  blocks.push_back(format_statistics(measured.statistics, measured.measures));
+  if (options.list == 0) {  // below more tables nobody would look for it
+    blocks.push_back(format_histogram(measured.statistics, nullptr));
+    if (measured.rulers) blocks.push_back(format_rulers(*measured.rulers, nullptr));
+  }
+  if (measured.curved) blocks.push_back(format_curved(*measured.curved, nullptr));
+  if (measured.limit) blocks.push_back(format_limit(*measured.limit));
+  if (options.list > 0) blocks.push_back(format_bad_tets(measured.bad_tets, options.list));
+  say(stdout, fmt::format("{}", fmt::join(blocks, "\n")));
 }
 
 /// A line each, and one of the worst. A file that cannot be read is named, and the others follow.
@@ -243,9 +245,9 @@ void add_quality(CLI::App& app, Invocation& invocation) {
   command->add_flag("--limit", options->limit,
                     "Add what the surface allows at best, and why each bad\ntet is there");
   command
-      ->add_option(
-          "--list", options->list,
-          "Name the worst N bad tets: number from 1, region,\ncentre, angles and why they resist")
+      ->add_option("--list", options->list,
+                   "Name the worst N bad tets, in place of histogram and\nother programs' "
+                   "measures: number from 1, region,\ncentre, angles and why they resist")
       ->type_name("N")
       ->check(number_from(std::size_t{1}, std::size_t{1000000000}));
   command

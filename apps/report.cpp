@@ -264,7 +264,7 @@ std::string format_limit(const SurfaceLimit& limit) {
   if (limit.n_forced == 0) {
     line("limit", "no bad tet is known to be forced by the surface");
   } else {
-    line("limit", fmt::format("at least {} of the {} bad tets left are forced by the surface",
+    line("limit", fmt::format("at least {} of the {} bad tets are forced by the surface",
                               grouped(limit.n_forced), grouped(limit.n_bad)));
   }
   // Rounded outward: two digits must not promise more than is known.
@@ -279,8 +279,8 @@ std::string format_limit(const SurfaceLimit& limit) {
   if (!bounds.empty()) line("", bounds);
   constexpr std::array<std::string_view, kHindranceCount> kHelp = {
       "protected", "where the surface forces one", "held by a constraint", "without a free vertex",
-      "that the search did not improve"};
-  std::string heading = "bad tets left";
+      "that nothing is known to hold"};
+  std::string heading = "bad tets";
   for (std::size_t i = 0; i < kHindranceCount; ++i) {
     if (limit.bad[i] == 0) continue;
     line(heading, fmt::format("{} {}", grouped(limit.bad[i]), kHelp[i]));

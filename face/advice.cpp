@@ -214,6 +214,11 @@ std::vector<std::string> advice_on(const Held& held, const Options& options, con
   if (binds(held.by_frozen)) {
     texts.push_back(advice_on_frozen(options, result, held.by_frozen, held.bad));
   }
+  if (held.bad > 0 && (!options.size.empty() || options.size_at)) {
+    texts.push_back(fmt::format(
+        "lengths come first; 'tetmend improve' after this goes for {}, whatever their lengths",
+        share_of_bad(held.bad, held.bad)));
+  }
   if (held.by_surface > 0 && 2 * held.by_surface >= held.bad) {
     texts.push_back(fmt::format("the surface, which {}, has all vertices of {}",
                                 is_surface_fixed(options) ? "stays" : "moves no further",

@@ -289,18 +289,18 @@ TEST_CASE("the limit is told with bounds rounded outward, and the bad tets by wh
   limit.theta_max = 165.2099;
   limit.bad = {3, 12, 0, 2, 1000};
   CHECK(format_limit(limit) ==
-        "limit                at least 12 of the 1,014 bad tets left are forced by the surface\n"
+        "limit                at least 12 of the 1,014 bad tets are forced by the surface\n"
         "                     theta_min is 10.01 at most, theta_max is 165.20 at least\n"
-        "bad tets left        3 protected\n"
+        "bad tets             3 protected\n"
         "                     12 where the surface forces one\n"
         "                     2 without a free vertex\n"
-        "                     1,000 that the search did not improve\n");
+        "                     1,000 that nothing is known to hold\n");
   limit = {};
   limit.n_bad = 1;
   limit.bad[4] = 1;
   CHECK(format_limit(limit) ==
         "limit                no bad tet is known to be forced by the surface\n"
-        "bad tets left        1 that the search did not improve\n");
+        "bad tets             1 that nothing is known to hold\n");
 }
 
 TEST_CASE("a bound that is not known is null in JSON, and bad tets are listed by hindrance") {

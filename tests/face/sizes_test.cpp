@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // adapt(): sizes in all their forms, what is refused, and what comes over.
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -58,6 +59,11 @@ TEST_CASE("sizes of each form bring most edges into their range, and the surface
     CHECK(result.after.tets > result.before.tets);
     CHECK(result.surface_fingerprint == result.surface_fingerprint_before);
     CHECK(result.not_positive_after == 0);
+    // Whoever wanted lengths is told what they cost.
+    const bool is_told =
+        std::any_of(result.notes.begin(), result.notes.end(),
+                    [](const auto& note) { return note.starts_with("lengths come first"); });
+    CHECK(is_told == (result.after.n_bad > 0));
   }
 }
 
