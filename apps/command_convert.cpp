@@ -182,6 +182,7 @@ void add_convert(CLI::App& app, Invocation& invocation) {
       ->add_flag("-q,--quiet", options->quiet, "Print nothing but errors and what OUT cannot hold")
       ->excludes(json);
   add_carry_options(*command, options->carry);
+  options->carry.replaces_tets = false;
   add_format_option(*command, options->format);
   add_threads_option(*command, options->threads);
   add_parts_option(*command, options->parts);

@@ -20,6 +20,7 @@
 #include "apps/standard_streams.h"
 #include "apps/threads.h"
 #include "kernel/formats/degenerate.h"
+#include "kernel/formats/harmless_notes.h"
 
 namespace tetmend::apps {
 namespace {
@@ -118,11 +119,13 @@ MeasureOptions to_wanted(const QualityOptions& options) {
 Measurement measure_file(const QualityOptions& options, const MeasureOptions& wanted,
                          const pieces::ArrayFiles* parts) {
   Mesh mesh = load_whole(options.file, options.threads, parts);
-  std::vector<std::string> dropped = mesh.notes();
-  std::erase_if(dropped, [](const auto& note) { return !formats::tells_of_dropped(note); });
+  std::vector<std::string> not_measured = mesh.notes();
+  std::erase_if(not_measured, [](const auto& note) {
+    return !formats::tells_of_dropped(note) && !note.ends_with(formats::kStayWhereTheyAre);
+  });
   Measurement measured =
       in_parts(options.file, parts, [&] { return measure(std::move(mesh), wanted); });
-  measured.notes.insert(measured.notes.begin(), dropped.begin(), dropped.end());
+  measured.notes.insert(measured.notes.begin(), not_measured.begin(), not_measured.end());
   return measured;
 }
 

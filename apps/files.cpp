@@ -16,6 +16,7 @@
 #include "apps/commands.h"
 #include "apps/standard_streams.h"
 #include "explain/json_text.h"
+#include "kernel/formats/harmless_notes.h"
 #include "kernel/formats/mesh_io.h"
 #include "kernel/formats/packed_file.h"
 #include "kernel/formats/pending_file.h"
@@ -193,7 +194,7 @@ void add_carry_options(CLI::App& command, CarryOptions& options) {
       .add_option("--variant", options.variant,
                   "How OUT is written; default: as IN.\n.msh: '2.2 ASCII', '2.2 binary', '4.1 "
                   "ASCII',\n'4.1 binary'; .vtk, .vtu: ASCII, binary;\n.ele: 'from 0', 'from 1'; "
-                  ".inp: lists, ranges;\n.bdf: short, long, free")
+                  ".inp: lists, ranges;\n.bdf: short, long, free, rounded")
       ->type_name("NAME");
   command.add_flag("--strict", options.strict, "Write nothing if anything of IN would be lost");
 }
@@ -216,10 +217,12 @@ void tell_lost(const std::filesystem::path& input, const std::vector<std::string
   for (const std::string& text : lost) {
     say(stderr, fmt::format("note: {}: {}\n", printable(shown(input)), printable(text)));
   }
-  if (options.strict && !lost.empty()) {
-    throw Error(
-        fmt::format("{}: {} would be lost: nothing is written", shown(input),
-                    lost.size() == 1 ? "something" : fmt::format("{} things", lost.size())));
+  const auto losses = std::count_if(lost.begin(), lost.end(), [&](const std::string& text) {
+    return !formats::loses_nothing(text, options.replaces_tets);
+  });
+  if (options.strict && losses > 0) {
+    throw Error(fmt::format("{}: {} would be lost: nothing is written", shown(input),
+                            losses == 1 ? "something" : fmt::format("{} things", losses)));
   }
   notes.insert(notes.end(), lost.begin(), lost.end());
 }
@@ -228,8 +231,12 @@ Mesh load_for(const std::filesystem::path& input, const std::filesystem::path& o
               const CarryOptions& options, std::vector<std::string>& notes) {
   Mesh mesh = load(input, threads, options.label_array);
   std::vector<std::string> lost = mesh.notes();
-  for (std::string& text : not_saved(output, mesh)) lost.push_back(std::move(text));
+  for (std::string& text : not_saved(output, mesh, options.variant))
+    lost.push_back(std::move(text));
   tell_lost(input, lost, options, notes);
+  for (const std::string& text : remarks_on_saving(output, mesh, options.variant)) {
+    say(stderr, fmt::format("note: {}: {}\n", printable(shown(output)), printable(text)));
+  }
   return mesh;
 }
 

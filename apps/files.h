@@ -79,6 +79,7 @@ struct CarryOptions {
   std::string label_array;  ///< --label-array
   std::string variant;      ///< --variant
   bool strict = false;      ///< --strict
+  bool replaces_tets = true;
 };
 void add_carry_options(CLI::App& command, CarryOptions& options);
 

@@ -208,13 +208,23 @@ class Curver {
   Grouping edges_at_;          // by node: 6 * tet + edge
 };
 
-/// As long as that helps. `over` becomes what is left.
-void curve_all(Curver& curver, std::vector<std::uint32_t>& over) {
-  for (std::size_t then = over.size() + 1; !over.empty() && over.size() < then;) {
-    then = over.size();
-    curver.ease(over);
-    curver.curve(over);
-    over = curver.turned_over();
+/// As long as that helps; what leaves more of them is undone. `over` becomes what is left.
+void curve_all(MeshData& data, Curver& curver, std::vector<std::uint32_t>& over) {
+  for (bool helps = true; helps && !over.empty();) {
+    helps = false;
+    for (const bool eases : {true, false}) {
+      std::vector<Point> before = data.points;
+      if (eases) curver.ease(over);
+      curver.curve(over);
+      std::vector<std::uint32_t> left = curver.turned_over();
+      if (left.size() > over.size()) {
+        data.points = std::move(before);
+        continue;
+      }
+      helps = left.size() < over.size();
+      over = std::move(left);
+      break;
+    }
   }
 }
 
@@ -253,9 +263,10 @@ Curving curve_inside(MeshData& data, const std::vector<bool>& is_frozen, bool st
   const std::vector<Point> before = data.points;
   Curver curver(data, is_frozen);
   std::vector<std::uint32_t> over = curver.turned_over();
-  curve_all(curver, over);
+  curve_all(data, curver, over);
   while (straightens && !over.empty() && curver.straighten(over) > 0) {
-    curve_all(curver, over);
+    over = curver.turned_over();
+    curve_all(data, curver, over);
   }
   done.curved = curver.count_moved(before, true);
   done.straightened = curver.count_moved(before, false);

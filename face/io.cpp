@@ -18,8 +18,14 @@ Mesh load(const std::filesystem::path& file, int threads, const std::string& lab
                           [&] { return MeshAccess::make(read_mesh(file, label_array), file); });
 }
 
-std::vector<std::string> not_saved(const std::filesystem::path& file, const Mesh& mesh) {
-  return not_written(file, MeshAccess::data(mesh));
+std::vector<std::string> not_saved(const std::filesystem::path& file, const Mesh& mesh,
+                                   const std::string& variant) {
+  return not_written(file, MeshAccess::data(mesh), variant);
+}
+
+std::vector<std::string> remarks_on_saving(const std::filesystem::path& file, const Mesh& mesh,
+                                           const std::string& variant) {
+  return remarks_on_writing(file, MeshAccess::data(mesh), variant);
 }
 
 void save(const std::filesystem::path& file, const Mesh& mesh, int threads,

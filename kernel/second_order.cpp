@@ -10,6 +10,7 @@
 
 #include "kernel/error.h"
 #include "kernel/formats/cell_arrays.h"
+#include "kernel/formats/harmless_notes.h"
 #include "kernel/lists_of_kind.h"
 
 namespace tetmend {
@@ -234,9 +235,15 @@ std::uint32_t MidNodes::of(std::uint32_t a, std::uint32_t b) const {
 void take_second_order(MeshData& mesh) {
   const auto& all = mesh.other_elements;
   const auto has = [&](auto condition) { return std::any_of(all.begin(), all.end(), condition); };
-  const bool is_mixed =
-      !mesh.tets.empty() && has([](const auto& others) { return corners_of(others) == 4; });
-  if (!is_mixed && has([](const auto& others) { return corners_of(others) != 0; })) {
+  std::size_t curved = 0;
+  for (const OtherElements& others : all) {
+    if (corners_of(others) == 4) curved += others.labels.size();
+  }
+  if (curved > 0 && !mesh.tets.empty()) {
+    mesh.notes.push_back(fmt::format("of {} tets {} are of second order: {}",
+                                     mesh.tets.size() + curved, curved,
+                                     formats::kStayWhereTheyAre));
+  } else if (has([](const auto& others) { return corners_of(others) != 0; })) {
     Taking(mesh).run();
   }
 }

@@ -170,7 +170,7 @@ tetmend_status tetmend_save(tetmend_mesh* mesh, const char* file) {
     if (settled.point_count() == 0) {
       throw WrongCall("the mesh is empty: tetmend_load() or tetmend_set_points() comes first");
     }
-    std::vector<std::string> notes = not_saved(file, settled);
+    std::vector<std::string> notes = not_saved(file, settled, handle.variant);
     save(file, settled, handle.options.threads, handle.variant);
     handle.notes = std::move(notes);
   });

@@ -36,7 +36,14 @@ TETMEND_API std::vector<std::string_view> file_variants(const std::filesystem::p
 
 /// What of the mesh the format of `file` cannot hold, one sentence each; empty: save() keeps all.
 /// @throws Error "FILE: reason" when the extension is unknown
-TETMEND_API std::vector<std::string> not_saved(const std::filesystem::path& file, const Mesh& mesh);
+TETMEND_API std::vector<std::string> not_saved(const std::filesystem::path& file, const Mesh& mesh,
+                                               const std::string& variant = {});
+
+/// What save() keeps in a form that not all programs read, one sentence each; empty: nothing.
+/// @throws Error likewise
+TETMEND_API std::vector<std::string> remarks_on_saving(const std::filesystem::path& file,
+                                                       const Mesh& mesh,
+                                                       const std::string& variant = {});
 
 /// A format, by one of its extensions.
 struct FileFormat {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <functional>
 #include <span>
 #include <string>
@@ -17,7 +18,6 @@
 #include "kernel/formats/cell_arrays.h"
 #include "kernel/formats/element_kinds.h"
 #include "kernel/grouped.h"
-#include "kernel/grouping.h"
 #include "kernel/lists_of_kind.h"
 
 namespace tetmend::formats {
@@ -42,6 +42,10 @@ CornerRows corner_rows(const std::vector<Element>& elements) {
 }
 
 bool has_corner_twice(std::span<const std::uint32_t> v) {
+  if (v.size() == 4) {  // a tet: most elements are
+    return (v[0] == v[1]) | (v[0] == v[2]) | (v[0] == v[3]) | (v[1] == v[2]) | (v[1] == v[3]) |
+           (v[2] == v[3]);
+  }
   bool found = false;
   for (std::size_t i = 1; i < v.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) found |= v[i] == v[j];
@@ -79,15 +83,57 @@ std::uint64_t hash_of(std::span<const std::uint32_t> v) {
   return sum;
 }
 
-/// Looks at the tets with one smallest corner.
+/// Finds tets that may have the corners of another at next to no cost, for most meshes have none. A few
+/// more are found.
+class Suspicion {
+ public:
+  Suspicion(const CornerRows& all, std::size_t points)
+      : all_(all), bit_of_(all.count), seen_(2 * points), again_(2 * points) {}
+
+  /// Those of a chunk; several threads may.
+  void add(std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const std::uint32_t* v = corners(i);
+      const std::uint64_t sum = std::uint64_t{v[0]} + v[1] + v[2] + v[3];
+      const std::uint64_t others = v[0] ^ v[1] ^ v[2] ^ v[3];
+      const std::uint64_t mixed = (sum << 32 ^ others) * 0x9E3779B97F4A7C15u;
+      const auto bit = static_cast<std::uint8_t>(mixed >> 57);
+      bit_of_[i] = bit;
+      std::atomic<std::uint64_t>& seen = seen_[word(v, bit)];
+      const std::uint64_t mask = std::uint64_t{1} << (bit & 63U);
+      const bool is_new = (seen.load(std::memory_order_relaxed) & mask) == 0 &&
+                          (seen.fetch_or(mask, std::memory_order_relaxed) & mask) == 0;
+      if (!is_new) again_[word(v, bit)].fetch_or(mask, std::memory_order_relaxed);
+    }
+  }
+  /// When all have been added.
+  bool falls_on(std::size_t i) const {
+    const std::uint8_t bit = bit_of_[i];
+    return again_[word(corners(i), bit)].load(std::memory_order_relaxed) >> (bit & 63U) & 1U;
+  }
+
+ private:
+  const std::uint32_t* corners(std::size_t i) const { return all_.first + i * all_.stride; }
+  /// One of two for the smallest corner, so that tets that are neighbours use the same memory.
+  static std::size_t word(const std::uint32_t* v, std::uint8_t bit) {
+    const std::size_t smallest = std::min(std::min(v[0], v[1]), std::min(v[2], v[3]));
+    return 2 * smallest + (bit >> 6U);
+  }
+
+  const CornerRows& all_;
+  std::vector<std::uint8_t> bit_of_;  // of each tet, in these two words
+  std::vector<std::atomic<std::uint64_t>> seen_, again_;
+};
+
+/// Looks at tets whose hash is the same.
 class Comparison {
  public:
   explicit Comparison(const CornerRows& all) : all_(all) {}
 
-  void look_at(std::span<const std::uint32_t> tets) {
-    if (tets.size() < 2 || !has_equal_hashes(tets)) return;
+  template <class Numbers>
+  void look_at(const Numbers& tets) {
     rows_.clear();
-    for (const std::uint32_t t : tets) {
+    for (const auto& [hash, t] : tets) {
       auto& [corners, number] = rows_.emplace_back();
       const auto v = all_.of(t);
       std::copy(v.begin(), v.end(), corners.begin());
@@ -107,51 +153,36 @@ class Comparison {
   std::vector<Repeated> take() { return std::move(found_); }
 
  private:
-  /// Most meshes end here, so it must cost next to nothing.
-  bool has_equal_hashes(std::span<const std::uint32_t> tets) {
-    constexpr std::size_t kFew = 16;
-    hashes_.clear();
-    for (const std::uint32_t t : tets) hashes_.push_back(hash_of(all_.of(t)));
-    if (hashes_.size() > kFew) {
-      std::sort(hashes_.begin(), hashes_.end());
-      return std::adjacent_find(hashes_.begin(), hashes_.end()) != hashes_.end();
-    }
-    bool found = false;
-    for (std::size_t i = 1; i < hashes_.size(); ++i) {
-      for (std::size_t j = 0; j < i; ++j) found |= hashes_[i] == hashes_[j];
-    }
-    return found;
-  }
-
   const CornerRows& all_;
-  std::vector<std::uint64_t> hashes_;
   std::vector<std::pair<std::array<std::uint32_t, 4>, std::uint32_t>> rows_;
   std::vector<Repeated> found_;
 };
 
 /// In ascending order.
 std::vector<Repeated> find_repeated(const CornerRows& all, std::size_t points) {
-  constexpr std::size_t kVerticesOfChunk = 2048;
-  std::vector<std::uint32_t> smallest(all.count);
-  for_chunks(all.count, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      const auto v = all.of(i);
-      smallest[i] = std::min(std::min(v[0], v[1]), std::min(v[2], v[3]));
-    }
-  });
-  const Grouping groups = group_by_key(smallest, static_cast<std::uint32_t>(points));
-  const auto parts = map_chunks<std::vector<Repeated>>(
-      points,
-      [&](std::size_t begin, std::size_t end) {
-        Comparison comparison(all);
-        for (std::size_t v = begin; v < end; ++v) {
-          comparison.look_at(groups.group(static_cast<std::uint32_t>(v)));
+  using Hashed = std::pair<std::uint64_t, std::uint32_t>;
+  if (all.count < 2) return {};
+  Suspicion suspicion(all, points);
+  for_chunks(all.count, [&](std::size_t begin, std::size_t end) { suspicion.add(begin, end); });
+  const auto parts =
+      map_chunks<std::vector<Hashed>>(all.count, [&](std::size_t begin, std::size_t end) {
+        std::vector<Hashed> found;
+        for (std::size_t i = begin; i < end; ++i) {
+          if (suspicion.falls_on(i))
+            found.emplace_back(hash_of(all.of(i)), static_cast<std::uint32_t>(i));
         }
-        return comparison.take();
-      },
-      kVerticesOfChunk);
-  std::vector<Repeated> found;
-  for (const auto& part : parts) found.insert(found.end(), part.begin(), part.end());
+        return found;
+      });
+  std::vector<Hashed> suspects;
+  for (const auto& part : parts) suspects.insert(suspects.end(), part.begin(), part.end());
+  std::sort(suspects.begin(), suspects.end());
+  Comparison comparison(all);
+  for (std::size_t begin = 0, end = 0; begin < suspects.size(); begin = end) {
+    for (end = begin + 1; end < suspects.size() && suspects[end].first == suspects[begin].first;)
+      ++end;
+    if (end - begin > 1) comparison.look_at(std::span(suspects).subspan(begin, end - begin));
+  }
+  std::vector<Repeated> found = comparison.take();
   std::sort(found.begin(), found.end(),
             [](const Repeated& a, const Repeated& b) { return a.tet < b.tet; });
   return found;

@@ -15,6 +15,7 @@
 #include "kernel/formats/element_sets.h"
 #include "kernel/formats/febio.h"
 #include "kernel/formats/febio_mesh.h"
+#include "kernel/formats/harmless_notes.h"
 #include "kernel/formats/inp_lines.h"
 #include "kernel/formats/inp_sets.h"
 #include "kernel/formats/input_file.h"
@@ -166,8 +167,7 @@ class FebioReader : FebioMesh {
       const bool names_elements = name == "ElementData" || (name == "elem" && node.attribute("id"));
       if (names_elements && node != model_ && !names_elements_) {
         names_elements_ = true;
-        mesh_.notes.push_back(fmt::format(
-            "<{}> names elements: where improving replaces them it must be made anew", name));
+        mesh_.notes.push_back(fmt::format("<{}> names elements: {}", name, kMustBeMadeAnew));
       }
       if (node.first_child() && node != model_) {
         node = node.first_child();

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 #include <unordered_set>
 #include <utility>
@@ -114,6 +115,27 @@ std::uint32_t GmshEntities::of_number(Label tag) {
   if (listed != of_tag_.end()) return listed->second;
   const auto made = of_part_.find(tag);
   return made != of_part_.end() ? made->second : create(tag, {});
+}
+
+std::uint32_t GmshEntities::alone_at(const Point& point, std::span<const Label> groups) {
+  if (!std::exchange(has_boxes_, true)) {
+    for (std::size_t i = 0; i < listed_; ++i) {
+      const std::array<double, 6>& box = list_[i].box;
+      if (std::any_of(box.begin(), box.end(), [](double x) { return std::isnan(x); })) continue;
+      of_box_.emplace(box, static_cast<std::uint32_t>(i));
+    }
+  }
+  const std::set<Label> wanted(groups.begin(), groups.end());
+  auto [at, end] =
+      of_box_.equal_range({point.x(), point.y(), point.z(), point.x(), point.y(), point.z()});
+  for (; at != end; ++at) {
+    const std::vector<Label>& own = list_[at->second].groups;
+    if (std::set<Label>(own.begin(), own.end()) != wanted) continue;
+    const std::uint32_t found = at->second;
+    of_box_.erase(at);
+    return found;
+  }
+  return kNone;
 }
 
 std::uint32_t GmshEntities::create(Label part, std::vector<Label> groups) {

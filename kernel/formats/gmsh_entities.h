@@ -2,6 +2,7 @@
 // The entities of one dimension that a Gmsh file lists, and the sets of groups behind them.
 #pragma once
 
+#include <array>
 #include <compare>
 #include <cstddef>
 #include <cstdint>
@@ -51,17 +52,19 @@ class GmshEntities {
   }
   /// The entity with this number, which a point names.
   std::uint32_t of_number(Label tag);
+  /// An entity of the data that is just this point and in just these groups, each once; else kNone.
+  std::uint32_t alone_at(const Point& point, std::span<const Label> groups);
+  static constexpr std::uint32_t kNone = UINT32_MAX;
 
   std::size_t size() const { return list_.size(); }
   bool is_new(std::uint32_t entity) const { return entity >= listed_; }
+  bool has_groups(std::uint32_t entity) const { return !list_[entity].groups.empty(); }
   void extend(std::uint32_t entity, const Point& point);
 
   /// The list, in which each entity has a number of its own now.
   std::vector<GeometricEntity> finish();
 
  private:
-  static constexpr std::uint32_t kNone = UINT32_MAX;
-
   std::uint32_t look_up(const Key& key, std::span<const Label> member_of);
   std::uint32_t search(const Key& key, std::span<const Label> member_of);
   std::uint32_t create(Label part, std::vector<Label> groups);
@@ -77,6 +80,8 @@ class GmshEntities {
   std::map<Key, std::uint32_t> found_;
   std::map<Key, std::uint32_t> created_;    // by what tells them apart
   std::map<Label, std::uint32_t> of_part_;  // the first that was created for a part
+  std::multimap<std::array<double, 6>, std::uint32_t> of_box_;  // those of the data that are free
+  bool has_boxes_ = false;
   Key last_;
   std::uint32_t last_found_ = kNone;
 };

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <map>
 #include <set>
 #include <string>
 #include <unordered_set>
@@ -137,34 +138,59 @@ GmshPlan::GmshPlan(const MeshView& mesh) : data_(mesh.data()) {
   add_names();
 }
 
-/// Points in groups, then those that are elements without one.
+/// Points in groups, then those that are elements without one: so they are read again.
 void GmshPlan::add_points(const MeshView& mesh) {
   if (data_ == nullptr) return;
+  GmshEntities& table = (*tables_)[0];
   const GmshMembership membership(data_, 0, mesh.point_count());
-  std::vector<Label> labels;
+  Label next = 0;
+  const auto entity_of = [&](std::uint32_t v, Label part) {
+    const std::uint32_t set = membership.set_of(v);
+    const bool is_vertex = !data_->point_entities.empty() && data_->point_entities[v][0] == 0;
+    if (is_vertex) part = data_->point_entities[v][1];
+    if (!is_vertex && part <= 0) {
+      const std::uint32_t alone = table.alone_at(mesh.point(v), membership.groups(set));
+      if (alone != GmshEntities::kNone) return alone;
+      part = --next;  // below 0 they are of no entity: each of these points gets one of its own
+    }
+    const std::uint32_t entity = table.find({true, part, 0, set}, membership.groups(set));
+    if (table.is_new(entity)) table.extend(entity, mesh.point(v));
+    return entity;
+  };
+  std::map<std::uint32_t, std::uint32_t> grouped;  // entities by point
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> rest;
+  const auto add = [&](std::uint32_t v, Label part) {
+    const std::uint32_t entity = entity_of(v, part);
+    if (table.has_groups(entity)) {
+      grouped.emplace(v, entity);
+    } else {
+      rest.emplace_back(v, entity);
+    }
+  };
   for (std::uint32_t i = 0; i < mesh.point_count(); ++i) {
-    if (membership.set_of(i) != 0) point_elements_.push_back(i);
+    if (membership.set_of(i) != 0) add(i, 0);
   }
   for (const OtherElements& others : data_->other_elements) {
     if (others.vtk_type != gmsh_type(gmsh_point).vtk_type) continue;
-    point_elements_.insert(point_elements_.end(), others.vertices.begin(), others.vertices.end());
+    for (std::size_t i = 0; i < others.vertices.size(); ++i) {
+      if (membership.set_of(others.vertices[i]) != 0) continue;
+      add(others.vertices[i], others.parts.empty() ? 0 : others.parts[i]);
+    }
   }
   GmshKind kind;
   kind.type = gmsh_point;
+  const auto take = [&](const auto& rows) {
+    for (const auto& [v, entity] : rows) {
+      point_elements_.push_back(v);
+      kind.entity_of.push_back(entity);
+    }
+  };
+  take(grouped);
+  take(rest);
   kind.count = point_elements_.size();
   kind.vertices = [this](std::size_t i) {
     return std::span<const std::uint32_t>(&point_elements_[i], 1);
   };
-  Label next = 0;
-  for (const std::uint32_t v : point_elements_) {
-    const std::uint32_t set = membership.set_of(v);
-    const bool is_vertex = !data_->point_entities.empty() && data_->point_entities[v][0] == 0;
-    // Numbers below 0 are of no entity: each of these points gets one of its own.
-    const Label part = is_vertex ? data_->point_entities[v][1] : --next;
-    const std::uint32_t entity = (*tables_)[0].find({true, part, 0, set}, membership.groups(set));
-    if ((*tables_)[0].is_new(entity)) (*tables_)[0].extend(entity, mesh.point(v));
-    kind.entity_of.push_back(entity);
-  }
   kinds.push_back(std::move(kind));
 }
 

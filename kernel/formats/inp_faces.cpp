@@ -12,6 +12,7 @@
 
 #include <fmt/format.h>
 
+#include "kernel/formats/harmless_notes.h"
 #include "kernel/formats/inp_fields.h"
 
 namespace tetmend::formats {
@@ -292,9 +293,9 @@ class Reader {
     const std::uint32_t place = mesh_.elements.find(lines_.scopes[block.scope].element(number));
     if (place == InpNumbers::kNone || !is_tet(mesh_, place)) return;
     if (result_.notes.size() > kMostNotes) return;
-    result_.notes.push_back(
-        fmt::format("line {} of *{} names the tet {}: an improved mesh may not have it",
-                    block.file->line_place(fields.line().data()), block.keyword, number));
+    result_.notes.push_back(fmt::format("line {} of *{} names the tet {}: {}",
+                                        block.file->line_place(fields.line().data()), block.keyword,
+                                        number, kMayBeGone));
   }
 
   static constexpr std::size_t kMostNotes = 20;

@@ -206,6 +206,10 @@ class Maker {
   }
 
   void add_element_block(const InpBlock& block) {
+    const bool is_cut_away =
+        block.input == nullptr &&
+        !has_data({block.data, static_cast<std::size_t>(block.end - block.data)});
+    if (is_cut_away) return add_text(block.text());  // its part would no longer count as the mesh
     const std::size_t number = number_of_block_[&block];
     const std::uint32_t home = in_.home_of_block[number];
     const bool as_is = block.input == nullptr;

@@ -221,7 +221,8 @@ void LsDynaDeck::set_widths() {
 }
 
 bool LsDynaDeck::is_list(std::string keyword, std::string_view set) {
-  for (const std::string_view option : {"_TITLE", "_GENERATE", "_LIST"}) {
+  for (const std::string_view option :
+       {std::string_view("_TITLE"), kGenerate, std::string_view("_LIST")}) {
     const std::size_t at = keyword.find(option);
     if (at != std::string::npos) keyword.erase(at, option.size());
   }

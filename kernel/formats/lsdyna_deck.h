@@ -50,6 +50,8 @@ class LsDynaDeck {
   const std::vector<std::filesystem::path>& files() const { return files_.paths(); }
 
  protected:
+  /// In a keyword: ranges of members.
+  static constexpr std::string_view kGenerate = "_GENERATE";
   /// A plain list of members, or ranges of them: of "SET_SOLID" or "SET_NODE".
   static bool is_list(std::string keyword, std::string_view set);
   static bool is_nodes(const LsDynaBlock& block) { return block.keyword == "NODE"; }

@@ -15,6 +15,7 @@
 #include "kernel/error.h"
 #include "kernel/formats/element_rows.h"
 #include "kernel/formats/element_sets.h"
+#include "kernel/formats/harmless_notes.h"
 #include "kernel/formats/input_file.h"
 #include "kernel/formats/lsdyna.h"
 #include "kernel/formats/lsdyna_mesh.h"
@@ -22,8 +23,6 @@
 
 namespace tetmend::formats {
 namespace {
-
-constexpr std::string_view kGenerate = "_GENERATE";
 
 class LsDynaReader : LsDynaMesh {
  public:
@@ -111,8 +110,7 @@ class LsDynaReader : LsDynaMesh {
   }
 
   void note_names_solids(const std::string& keyword) {
-    std::string note = fmt::format(
-        "*{} names solids: where improving replaces them it must be made anew", keyword);
+    std::string note = fmt::format("*{} names solids: {}", keyword, kMustBeMadeAnew);
     if (std::find(mesh_.notes.begin(), mesh_.notes.end(), note) == mesh_.notes.end()) {
       mesh_.notes.push_back(std::move(note));
     }

@@ -64,6 +64,11 @@ using MedRemarks = std::map<std::string, std::string>;
 MedRemarks med_remarks(const MeshData& mesh);
 /// `about` is the name of a field, or empty.
 std::string med_remark_key(std::string_view what, std::string_view about = {});
+/// Unless the text is empty.
+inline void add_med_remark(MeshData& mesh, std::string_view what, const std::string& text,
+                           std::string_view about = {}) {
+  if (!text.empty()) mesh.deck.push_back(med_remark_key(what, about) + '\0' + text);
+}
 /// How many of them a reader of another format would miss.
 std::size_t med_remarks_to_miss(const MeshData& mesh);
 

@@ -30,6 +30,25 @@ struct MedBlock {
   const ElementKind& kind() const { return *element_kind(type->vtk_type); }
 };
 
+/// What a mesh has of one kind of element beside the elements.
+struct MedLists {
+  std::vector<Label>& parts;
+  std::vector<DataArray>& data;
+};
+inline MedLists med_lists_of(const ElementKind& kind, ElementSorter& sorter, MeshData& mesh) {
+  switch (kind.vtk_type) {
+    case vtk_tet:
+      return {mesh.tet_parts, mesh.tet_data};
+    case vtk_triangle:
+      return {mesh.triangle_parts, mesh.triangle_data};
+    case vtk_edge:
+      return {mesh.edge_parts, mesh.edge_data};
+    default:
+      OtherElements& others = sorter.others(kind);
+      return {others.parts, others.data};
+  }
+}
+
 /// Adds an array for each field of the mesh `name`: the values of its first step. What is not kept is
 /// told. Precondition: `sorter` has all elements of the blocks. @throws Error
 void read_med_fields(const Hdf5Reader& file, const std::string& name,

@@ -41,24 +41,21 @@ class MedFieldReader {
                                           steps.size(), in_quotes(name)));
       }
       if (steps.empty()) continue;
-      for (const char* what : {"NOM", "UNI", "UNT"}) remark(what, file_.text(path, what), name);
+      for (const char* what : {"NOM", "UNI", "UNT"})
+        add_med_remark(mesh_, what, file_.text(path, what), name);
       read_step(name, path + "/" + steps[0]);
     }
   }
 
  private:
-  void remark(std::string_view what, const std::string& text, const std::string& field) {
-    if (!text.empty()) mesh_.deck.push_back(med_remark_key(what, field) + '\0' + text);
-  }
-
   void read_step(const std::string& name, const std::string& path) {
     const std::int64_t components = file_.integer("CHA/" + name, "NCO");
     if (components < 1 || components > 1000000)
       file_.fail("CHA/" + name, "the number of components makes no sense");
-    remark("step",
-           fmt::format("{} {} {}", file_.integer(path, "NDT"), file_.integer(path, "NOR"),
-                       file_.real(path, "PDT")),
-           name);
+    add_med_remark(mesh_, "step",
+                   fmt::format("{} {} {}", file_.integer(path, "NDT"), file_.integer(path, "NOR"),
+                               file_.real(path, "PDT")),
+                   name);
     for (const std::string& support : file_.names(path)) {
       const std::string profile = trimmed_text(file_.text(path + "/" + support, "PFL"));
       const std::string values = path + "/" + support + "/" + profile;
@@ -76,21 +73,9 @@ class MedFieldReader {
         continue;
       }
       const std::size_t count = support == "NOE" ? mesh_.points.size() : block->count;
-      add_array(name, values + "/CO", count, static_cast<std::size_t>(components),
-                support == "NOE" ? mesh_.point_data : data_of(block->kind()));
-    }
-  }
-
-  std::vector<DataArray>& data_of(const ElementKind& kind) {
-    switch (kind.vtk_type) {
-      case vtk_tet:
-        return mesh_.tet_data;
-      case vtk_triangle:
-        return mesh_.triangle_data;
-      case vtk_edge:
-        return mesh_.edge_data;
-      default:
-        return sorter_.others(kind).data;
+      add_array(
+          name, values + "/CO", count, static_cast<std::size_t>(components),
+          support == "NOE" ? mesh_.point_data : med_lists_of(block->kind(), sorter_, mesh_).data);
     }
   }
 

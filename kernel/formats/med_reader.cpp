@@ -51,10 +51,6 @@ class Reader {
   }
 
  private:
-  void remark(std::string_view what, const std::string& text, std::string_view about = {}) {
-    if (!text.empty()) mesh_.deck.push_back(med_remark_key(what, about) + '\0' + text);
-  }
-
   void find_mesh() {
     const std::int64_t major = file_->integer("INFOS_GENERALES", "MAJ");
     const std::int64_t minor = file_->integer("INFOS_GENERALES", "MIN");
@@ -73,8 +69,9 @@ class Reader {
     if (file_->integer(path, "TYP") != 0)
       file_->fail(path, "the mesh is structured: expected tets");
     if (file_->integer(path, "ESP") != 3) file_->fail(path, "the mesh does not lie in space");
-    remark("mesh", name_);
-    for (const char* what : {"NOM", "UNI", "UNT", "DES"}) remark(what, file_->text(path, what));
+    add_med_remark(mesh_, "mesh", name_);
+    for (const char* what : {"NOM", "UNI", "UNT", "DES"})
+      add_med_remark(mesh_, what, file_->text(path, what));
     const std::vector<std::string> steps = file_->names(path);
     if (steps.empty()) file_->fail(path, "the mesh is empty");
     step_ = path + "/" + steps[0];
@@ -204,7 +201,7 @@ class Reader {
 
   void add_elements() {
     const bool as_in_vtk = are_volumes_as_in_vtk();
-    if (as_in_vtk) remark("order", "VTK");
+    if (as_in_vtk) add_med_remark(mesh_, "order", "VTK");
     bool with_numbers = true;
     std::set<std::int64_t> all;
     for (const MedBlock& block : blocks_) {
@@ -219,7 +216,7 @@ class Reader {
       mesh_.notes.emplace_back("numbers of elements are not kept: not all have one of their own");
     for (const MedBlock& block : blocks_) {
       const ElementKind& kind = block.kind();
-      std::vector<Label>& parts = parts_of(kind);
+      std::vector<Label>& parts = med_lists_of(kind, sorter_, mesh_).parts;
       ElementRow row;
       row.kind = &kind;
       for (std::size_t i = 0; i < block.count; ++i) {
@@ -237,19 +234,6 @@ class Reader {
           question_->place = fmt::format("{}: /{}: element {}", input_.name(), block.path, i + 1);
         }
       }
-    }
-  }
-
-  std::vector<Label>& parts_of(const ElementKind& kind) {
-    switch (kind.vtk_type) {
-      case vtk_tet:
-        return mesh_.tet_parts;
-      case vtk_triangle:
-        return mesh_.triangle_parts;
-      case vtk_edge:
-        return mesh_.edge_parts;
-      default:
-        return sorter_.others(kind).parts;
     }
   }
 

@@ -59,6 +59,8 @@ struct Codec {
   bool is_several_files = false;
   /// What else is lost, one sentence each; may be null.
   std::vector<std::string> (*lost)(const std::filesystem::path&, const MeshData&) = nullptr;
+  /// Of the variant that is asked for; may be null.
+  formats::FormNotes (*form)(const MeshData&, std::string_view variant) = nullptr;
 };
 
 /// For formats that have one place for labels.
@@ -239,9 +241,9 @@ constexpr std::array<Codec, 24> kCodecs = {
      {read_plain<formats::read_su2>, formats::write_su2, kSu2Room},
      {read_plain<formats::read_netgen>, formats::write_netgen, kNetgenRoom},
      {read_plain<formats::read_nastran>, formats::write_nastran, kNastranRoom, false,
-      formats::not_in_nastran},
+      formats::not_in_nastran, formats::nastran_form},
      {read_plain<formats::read_nastran>, formats::write_nastran, kNastranRoom, false,
-      formats::not_in_nastran},
+      formats::not_in_nastran, formats::nastran_form},
      {read_plain<formats::read_elmer>, formats::write_elmer, kElmerRoom, true},
      {read_plain<formats::read_unv>, formats::write_unv, kUnvRoom, false, formats::not_in_unv},
      {read_plain<formats::read_mfem>, formats::write_mfem, kMfemRoom, false, formats::not_in_mfem},
@@ -348,12 +350,23 @@ std::string locate_tet(const std::filesystem::path& file, std::size_t tet) {
   return question.place;
 }
 
-std::vector<std::string> not_written(const std::filesystem::path& file, const MeshData& mesh) {
+std::vector<std::string> not_written(const std::filesystem::path& file, const MeshData& mesh,
+                                     std::string_view variant) {
   const Codec& codec = codec_to_write(file, mesh.variant);
   std::vector<std::string> notes = formats::lost_in(codec.room, format_extension(file), mesh);
-  if (codec.lost == nullptr) return notes;
-  for (std::string& note : codec.lost(file, mesh)) notes.push_back(std::move(note));
+  if (codec.lost != nullptr) {
+    for (std::string& note : codec.lost(file, mesh)) notes.push_back(std::move(note));
+  }
+  if (codec.form != nullptr && !variant.empty()) {
+    for (std::string& note : codec.form(mesh, variant).lost) notes.push_back(std::move(note));
+  }
   return notes;
+}
+
+std::vector<std::string> remarks_on_writing(const std::filesystem::path& file, const MeshData& mesh,
+                                            std::string_view variant) {
+  const Codec& codec = codec_to_write(file, mesh.variant);
+  return codec.form == nullptr ? std::vector<std::string>() : codec.form(mesh, variant).remarks;
 }
 
 std::span<const std::string_view> mesh_variants(const std::filesystem::path& file) {
@@ -362,14 +375,12 @@ std::span<const std::string_view> mesh_variants(const std::filesystem::path& fil
   static constexpr std::array kOfVtk = {formats::kVtkAscii, formats::kVtkBinary};
   static constexpr std::array kOfTetgen = {formats::kTetgenFromZero, formats::kTetgenFromOne};
   static constexpr std::array kOfInp = {formats::kInpLists, formats::kInpRanges};
-  static constexpr std::array kOfNastran = {formats::kNastranShort, formats::kNastranLong,
-                                            formats::kNastranFree};
   const std::string extension = format_extension(file);
   if (extension == ".msh") return kOfGmsh;
   if (extension == ".vtk" || extension == ".vtu") return kOfVtk;
   if (extension == ".node" || extension == ".ele") return kOfTetgen;
   if (extension == ".inp") return kOfInp;
-  if (extension == ".bdf" || extension == ".nas") return kOfNastran;
+  if (extension == ".bdf" || extension == ".nas") return formats::kNastranForms;
   return {};
 }
 

@@ -49,8 +49,14 @@ MeshData read_mesh(const std::filesystem::path& file, const std::string& label_a
 std::string locate_tet(const std::filesystem::path& file, std::size_t tet);
 
 /// What of `mesh` the format of `file` cannot hold, one sentence each; empty: it holds all.
+/// @param variant one of mesh_variants(), or empty
 /// @throws Error for an unknown extension
-std::vector<std::string> not_written(const std::filesystem::path& file, const MeshData& mesh);
+std::vector<std::string> not_written(const std::filesystem::path& file, const MeshData& mesh,
+                                     std::string_view variant = {});
+
+/// What is not lost, but which programs cannot read, one sentence each. @throws Error likewise
+std::vector<std::string> remarks_on_writing(const std::filesystem::path& file, const MeshData& mesh,
+                                            std::string_view variant = {});
 
 /// The names of the ways in which the format of `file` can be written, MeshView::variant(); empty if
 /// there is only one.

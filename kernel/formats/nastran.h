@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "kernel/formats/element_kinds.h"
+#include "kernel/formats/room.h"
 #include "kernel/formats/tet_place.h"
 #include "kernel/mesh_data.h"
 #include "kernel/mesh_view.h"
@@ -102,5 +103,8 @@ std::size_t nastran_pieces_to_miss(const MeshData& mesh);
 
 /// What a deck cannot hold of a mesh, one sentence each.
 std::vector<std::string> not_in_nastran(const std::filesystem::path& file, const MeshData& mesh);
+
+/// What a form costs, and who cannot read it. Cost: that of writing each coordinate.
+FormNotes nastran_form(const MeshData& mesh, std::string_view form);
 
 }  // namespace tetmend::formats

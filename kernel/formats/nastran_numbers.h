@@ -2,6 +2,7 @@
 // Cards of Nastran in each of the three forms, and numbers in the room that they have.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <span>
 #include <string>
@@ -11,11 +12,15 @@
 
 namespace tetmend::formats {
 
-/// How a deck may be asked for: points and elements in short fields, points in long ones, both free. What has no room in fields of 8 has those of 16, and what has none there
-/// is free: no digit is lost.
+/// How a deck may be asked for: points and elements in short fields, points in long ones, both free.
+/// What has no room in fields of 8 has those of 16, and what has none there is free: no digit is
+/// lost. In the last, points have long fields whatever that costs.
 inline constexpr std::string_view kNastranShort = "short";
 inline constexpr std::string_view kNastranLong = "long";
 inline constexpr std::string_view kNastranFree = "free";
+inline constexpr std::string_view kNastranRounded = "rounded";
+inline constexpr std::array kNastranForms = {kNastranShort, kNastranLong, kNastranFree,
+                                             kNastranRounded};
 
 /// Characters of a short field; kNastranRoom are those of a long one.
 inline constexpr std::size_t kNastranShortRoom = 8;
@@ -26,10 +31,10 @@ std::string nastran_digits(double value);
 std::string nastran_short_form(double value, std::size_t room);
 /// One of these two; empty if neither has room.
 std::string nastran_real_field(double value, std::size_t room);
-/// The nearest number that has room in a long field.
+/// The nearest number that has room in a long field. Solvers read no more characters.
 std::string nastran_rounded(double value);
 
-/// @param form  one of the three
+/// @param form  one of kNastranForms
 void put_nastran_card(OutputBuffer& buffer, std::string_view name,
                       std::span<const std::string> fields, std::string_view form);
 

@@ -15,6 +15,7 @@
 #include "kernel/formats/element_checks.h"
 #include "kernel/formats/element_rows.h"
 #include "kernel/formats/gmsh_tags.h"
+#include "kernel/formats/harmless_notes.h"
 #include "kernel/formats/input_file.h"
 #include "kernel/formats/nastran.h"
 #include "kernel/formats/nastran_card.h"
@@ -65,6 +66,11 @@ class Reader : private NastranCardReader {
     label_blank_properties();
     pins_.require(points_, sources_, mesh_);
     note_partial();
+    if (!sets_of_elements_.empty()) {
+      mesh_.notes.push_back(fmt::format("{} sets name elements, the first is SET {}: {}",
+                                        sets_of_elements_.size(), sets_of_elements_[0],
+                                        kMustBeMadeAnew));
+    }
     const std::size_t lost = points_.lost_comments() + lost_comments_;
     if (lost > 0) {
       mesh_.notes.push_back(
@@ -282,9 +288,17 @@ class Reader : private NastranCardReader {
 
   void note_partial() {
     for (const auto& [name, count] : partial_) {
-      mesh_.notes.push_back(fmt::format(
-          "{} {} leave out some of their mid-side nodes: they stay as they are, and where they are",
-          count, name));
+      mesh_.notes.push_back(fmt::format("{} {} leave out some of their mid-side nodes: {}", count,
+                                        name, kStayWhereTheyAre));
+    }
+  }
+
+  void note_names_elements() {
+    if (is_nastran_set_of_elements(card_)) {
+      sets_of_elements_.emplace_back(card_.field(0));
+    } else if (names_elements(card_.name) && element_cards_.insert(card_.name).second) {
+      mesh_.notes.push_back(
+          fmt::format("the card {} names elements: {}", card_.name, kMustBeMadeAnew));
     }
   }
 
@@ -296,11 +310,7 @@ class Reader : private NastranCardReader {
         number <= INT32_MAX) {
       properties_.insert(number);
     }
-    if (names_elements(card_.name) && element_cards_.insert(card_.name).second) {
-      mesh_.notes.push_back(fmt::format(
-          "the card {} names elements: where improving replaces them it must be made anew",
-          card_.name));
-    }
+    note_names_elements();
     NastranReferences references = nastran_references(card_);
     std::erase_if(references.ranges, [this](const auto& range) {
       return range.first > range.second ||
@@ -316,6 +326,7 @@ class Reader : private NastranCardReader {
     const char* place;
   };
 
+  std::vector<std::string> sets_of_elements_;
   std::filesystem::path path_;
   TetPlace* question_;
   MeshData mesh_;

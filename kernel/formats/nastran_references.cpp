@@ -298,6 +298,15 @@ bool is_one_of(std::string_view field, std::initializer_list<std::string_view> w
   return std::find(words.begin(), words.end(), capitals) != words.end();
 }
 
+/// OptiStruct's: number, type, how the members are named, which may be left out; then these.
+void read_set(const NastranCardText& card, Collector& to) {
+  std::int64_t number = 0;
+  const bool has_type = !card.field(1).empty() && !nastran_integer(card.field(1), number);
+  if (!has_type) return to.all();
+  const bool is_box = is_one_of(card.field(2), {"BBOX"});
+  if (is_one_of(card.field(1), {"GRID", "GRIDC"}) && !is_box) to.by(FieldPattern("--(p)"));
+}
+
 /// Cards of which other fields decide. False for others.
 bool read_special(const NastranCardText& card, Collector& to) {
   const auto by = [&](std::string_view pattern) { to.by(FieldPattern(pattern)); };
@@ -313,6 +322,8 @@ bool read_special(const NastranCardText& card, Collector& to) {
     if (card.field(1) != "0") by("-p--(p---)");  // else it is the head of the matrix
   } else if (card.name == "SET3") {
     if (!is_one_of(card.field(1), {"ELEM", "PROP"})) by("--(p)");
+  } else if (card.name == "SET") {
+    read_set(card, to);
   } else if (card.name == "DRESP1") {
     if (is_one_of(card.field(2),
                   {"DISP", "VELO", "ACCL", "SPCFORCE", "GPFORCE", "FRDISP", "FRVELO", "FRACCL",
@@ -338,6 +349,11 @@ NastranReferences nastran_references(const NastranCardText& card) {
     collector.all();
   }
   return collector.take();
+}
+
+bool is_nastran_set_of_elements(const NastranCardText& card) {
+  const bool is_set = card.name == "SET" || card.name == "SET3";
+  return is_set && is_one_of(card.field(1), {"ELEM", "ELEMENT"});
 }
 
 }  // namespace tetmend::formats

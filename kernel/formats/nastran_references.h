@@ -20,4 +20,7 @@ struct NastranReferences {
 /// such points.
 NastranReferences nastran_references(const NastranCardText& card);
 
+/// True of SET3, and of SET in the bulk data of OptiStruct, whose type is that of elements.
+bool is_nastran_set_of_elements(const NastranCardText& card);
+
 }  // namespace tetmend::formats

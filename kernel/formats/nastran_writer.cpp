@@ -15,7 +15,6 @@
 
 #include "kernel/error.h"
 #include "kernel/formats/element_rows.h"
-#include "kernel/formats/included_path.h"
 #include "kernel/formats/nastran.h"
 #include "kernel/formats/nastran_card.h"
 #include "kernel/formats/nastran_numbers.h"
@@ -105,7 +104,7 @@ class Writer {
   Writer(const std::filesystem::path& file, const MeshView& mesh)
       : out_(file), mesh_(mesh), lists_(mesh) {
     const MeshData* data = mesh.data();
-    for (const std::string_view form : {kNastranShort, kNastranLong, kNastranFree}) {
+    for (const std::string_view form : kNastranForms) {
       if (mesh.variant() == form) form_ = form;
     }
     was_deck_ = data != nullptr && data->variant == kNastran;
@@ -267,7 +266,18 @@ class Writer {
     for (const std::string_view comment : card.comments) buffer.put(comment);
     std::vector<std::string> fields(card.fields.begin(), card.fields.end());
     while (!fields.empty() && fields.back().empty()) fields.pop_back();
-    put_nastran_card(buffer, card.name, fields, card.name == "GRID" ? form_ : element_form());
+    const bool is_point = card.name == "GRID";
+    for (std::size_t k = 2; is_point && form_ == kNastranRounded && k < 5; ++k) {
+      double value = 0;
+      if (k >= fields.size() || fields[k].size() <= kNastranRoom) continue;
+      if (nastran_real(fields[k], value)) fields[k] = in_room(value);
+    }
+    put_nastran_card(buffer, card.name, fields, is_point ? form_ : element_form());
+  }
+
+  static std::string in_room(double value) {
+    std::string text = nastran_real_field(value, kNastranRoom);
+    return text.empty() ? nastran_rounded(value) : text;
   }
 
   /// In which a point of the deck is given; null: the basic one.
@@ -291,12 +301,9 @@ class Writer {
     if (card.fields.empty() && default_system_ != 0) fields[1] = "0";
     for (std::size_t k = 0; k < 3; ++k) {
       const double value = coordinates[static_cast<Eigen::Index>(k)];
-      reals[k] = nastran_digits(value);
-      if (reals[k].size() > kNastranRoom) {
-        std::string short_text = nastran_short_form(value, kNastranRoom);
-        if (short_text.empty() && was_deck_) short_text = nastran_rounded(value);
-        if (!short_text.empty()) reals[k] = std::move(short_text);
-      }
+      const bool may_round = was_deck_ || form_ == kNastranRounded;
+      reals[k] = may_round ? in_room(value) : nastran_real_field(value, kNastranRoom);
+      if (reals[k].empty()) reals[k] = nastran_digits(value);
       fields[2 + k] = reals[k];
     }
     for (std::size_t k = 5; k < 8; ++k) fields[k] = card.field(k);
@@ -434,21 +441,6 @@ class Writer {
 
 void write_nastran(const std::filesystem::path& file, const MeshView& mesh) {
   Writer(file, mesh).write();
-}
-
-std::size_t nastran_pieces_to_miss(const MeshData& mesh) {
-  std::size_t pieces = 0;
-  for (std::size_t i = 0; i < mesh.deck.size() && i < nastran_folder; ++i) {
-    const bool is_own = (i == nastran_front && mesh.deck[i] == "BEGIN BULK\n") ||
-                        (i == nastran_end && mesh.deck[i] == "ENDDATA\n");
-    pieces += is_own || mesh.deck[i].empty() ? 0 : 1;
-  }
-  return pieces;
-}
-
-std::vector<std::string> not_in_nastran(const std::filesystem::path& file, const MeshData& mesh) {
-  if (mesh.variant != kNastran || mesh.deck.size() < nastran_pieces) return {};
-  return included_files_stay(file, mesh.deck[nastran_folder], "INCLUDE");
 }
 
 }  // namespace tetmend::formats

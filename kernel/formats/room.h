@@ -47,6 +47,12 @@ inline constexpr unsigned kNamesOfTriangles = 1U << 2;
 inline constexpr unsigned kNamesOfElements = 14;
 inline constexpr unsigned kAllNames = 15;
 
+/// What the variant of a file costs, and what else is to be said of it, one sentence each.
+struct FormNotes {
+  std::vector<std::string> lost;
+  std::vector<std::string> remarks;  ///< nothing is lost, but not all programs read it
+};
+
 /// A name of one word without signs that open comments or values.
 bool is_word(std::string_view name);
 

@@ -355,6 +355,22 @@ TEST_CASE("what a format cannot hold is named, in the report too, or refused") {
   CHECK(now.point_data[0].values == DataArray::Values(std::vector<double>(now.points.size(), 1.5)));
 }
 
+TEST_CASE(
+    "--strict converts what loses nothing but where tets are replaced, and does not improve it") {
+  const TempFolder folder;
+  const std::string in = (folder / "in.bdf").string();
+  const std::string out = (folder / "out.bdf").string();
+  write_text(in,
+             "BEGIN BULK\nGRID,1\nGRID,2,,1.\nGRID,3,,,1.\nGRID,4,,,,1.\nCTETRA,7,1,1,2,3,4\n"
+             "PLOAD4,1,7,1.\nENDDATA\n");
+  const Outcome converted = run_program({"convert", in, out, "--strict"});
+  CHECK(converted.status == 0);
+  CHECK(contains(converted.err, "the card PLOAD4 names elements"));
+  std::filesystem::remove(out);
+  CHECK(run_program({"improve", in, "-o", out, "--strict"}).status == 1);
+  CHECK(!std::filesystem::exists(out));
+}
+
 TEST_CASE("check holds a mesh to thresholds, presets and its input") {
   const TempFolder folder;
   const std::string in = asset("two_materials.mesh");

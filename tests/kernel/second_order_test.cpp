@@ -117,4 +117,12 @@ TEST_CASE("in a mesh of both orders the tets of second order pass as they are") 
   take_second_order(mesh);
   CHECK(mesh.other_elements == others);
   CHECK(mesh.mid_nodes.empty());
+  const std::string curved = std::to_string(others[0].labels.size());
+  const std::string all = std::to_string(others[0].labels.size() + 1);
+  CHECK(mesh.notes == std::vector<std::string>{"of " + all + " tets " + curved +
+                                               " are of second order: they stay as they are, and "
+                                               "where they are"});
+  MeshData pure = with_second_order(sample());
+  take_second_order(pure);
+  CHECK(pure.notes.empty());
 }

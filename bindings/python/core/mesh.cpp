@@ -273,7 +273,7 @@ void add_mesh(py::module_& module) {
          const std::string& variant) {
         std::vector<std::string> notes;
         run_detached([&] {
-          notes = not_saved(file, mesh);
+          notes = not_saved(file, mesh, variant);
           save(file, mesh, threads, variant);
         });
         return to_texts(notes);

@@ -2,6 +2,9 @@
 #include "kernel/formats/degenerate.h"
 
 #include <algorithm>
+#include <array>
+#include <random>
+#include <set>
 
 #include <doctest/doctest.h>
 
@@ -130,6 +133,30 @@ TEST_CASE("a tet of second order with a corner twice goes, a collapsed hexahedro
   CHECK(mesh.other_elements[0].labels.size() == 1);
   CHECK(mesh.other_elements[0].vertices.size() == 10);
   CHECK(mesh.other_elements[1].labels.size() == 1);
+}
+
+TEST_CASE("of tets in any order the repeated ones are those that a set finds") {
+  std::mt19937 random(7);
+  for (const std::uint32_t points : {5U, 9U, 40U, 3000U}) {
+    MeshData mesh;
+    mesh.points.resize(points, Point::Zero());
+    std::set<std::array<std::uint32_t, 4>> known;
+    std::vector<std::uint32_t> expected;
+    for (std::uint32_t t = 0; t < 20000; ++t) {
+      std::array<std::uint32_t, 4> v{};
+      // Neighbours, as in most meshes, and a fan around the first point.
+      const std::uint32_t around = t % 3 == 0 ? 0 : static_cast<std::uint32_t>(random() % points);
+      for (std::uint32_t& corner : v) corner = (around + random() % 12) % points;
+      if (t % 7 == 0 && t > 0) v = mesh.tets[random() % t].vertices;
+      std::shuffle(v.begin(), v.end(), random);
+      mesh.tets.push_back({v, 1});
+      std::sort(v.begin(), v.end());
+      const bool is_collapsed = std::adjacent_find(v.begin(), v.end()) != v.end();
+      if (is_collapsed || !known.insert(v).second) expected.push_back(t);
+    }
+    CHECK(drop_degenerate(mesh) == expected);
+    CHECK(mesh.tets.size() == known.size());
+  }
 }
 
 TEST_CASE("where a tet stands in the file counts those that were dropped before it") {

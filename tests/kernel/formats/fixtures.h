@@ -28,6 +28,15 @@
 
 namespace tetmend::test {
 
+/// What is told of a mesh, but for its tets of both orders.
+inline std::vector<std::string> notes_but_of_orders(const MeshData& mesh) {
+  std::vector<std::string> notes = mesh.notes;
+  std::erase_if(notes, [](const std::string& note) {
+    return note.find(" are of second order: ") != std::string::npos;
+  });
+  return notes;
+}
+
 /// A new folder that vanishes at the end of the test; tests may run at the same time.
 class TempFolder {
  public:

@@ -532,6 +532,26 @@ TEST_CASE("a deck of one part and instance keeps what is in its assembly") {
   CHECK(test::read_text(folder / "b.inp") == expected);
 }
 
+TEST_CASE("an *ELEMENT without rows stays in the deck, where its part counts as the mesh") {
+  const TempFolder folder;
+  for (const std::string deck :
+       {"*PART, NAME=A\n*NODE\n1, 0, 0, 0\n*ELEMENT, TYPE=C3D4, ELSET=E, 1, 2, 3, 4\n** cut\n*END "
+        "PART\n*PART, NAME=B\n" +
+            std::string(kSmall) + "*END PART\n",
+        std::string(kSmall) + "*ELEMENT, TYPE=C3D4, ELSET=F\n"}) {
+    CAPTURE(deck);
+    const MeshData mesh = read_text(folder, deck);
+    CHECK(mesh.tets.size() == 1);
+    write_mesh(folder / "b.inp", mesh);
+    const std::string text = test::read_text(folder / "b.inp");
+    CHECK(text.find(deck.find("ELSET=F") == std::string::npos
+                        ? "*ELEMENT, TYPE=C3D4, ELSET=E, 1, 2, 3, 4\n** cut\n"
+                        : "*ELEMENT, TYPE=C3D4, ELSET=F\n") != std::string::npos);
+    write_mesh(folder / "c.inp", read_mesh(folder / "b.inp"));
+    CHECK(test::read_text(folder / "c.inp") == text);
+  }
+}
+
 TEST_CASE("what a deck says of tets by number and is not a face is noted") {
   const TempFolder folder;
   const MeshData mesh = read_text(folder, std::string(kSmall) + "*DLOAD\n1, GRAV, 9.81, 0, 0, 1\n");

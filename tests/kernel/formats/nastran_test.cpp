@@ -53,6 +53,9 @@ std::string text() {
          "$ behind\n";
 }
 
+const std::string kLinear =
+    "BEGIN BULK\nGRID,20\nGRID,30,,1.\nGRID,40,,,1.\nGRID,50,,,,1.\nCTETRA,7,1,20,30,40,50\n"
+    "ENDDATA\n";
 MeshData read(const TempFolder& folder, std::string_view content) {
   write_text(folder / "a.bdf", content);
   return read_mesh(folder / "a.bdf");
@@ -96,7 +99,8 @@ TEST_CASE("a deck of Nastran gives points and elements with their numbers, whate
         std::vector<std::uint32_t>{0, 1, 2, 3, 4, 5, 6, 7, 8, 9});
   CHECK(mesh.other_elements[2].numbers == std::vector<std::int64_t>{16});
   CHECK(mesh.other_elements[1].vtk_type == 13);
-  CHECK(mesh.notes.empty());
+  CHECK(notes_but_of_orders(mesh).empty());
+  CHECK(mesh.notes.size() == 1);
 }
 
 TEST_CASE("what is no mesh in a deck of Nastran stays word for word, and its points are required") {
@@ -161,6 +165,13 @@ TEST_CASE("a card of Nastran keeps the points that it names, and no other number
       {"DMIG,A,10,20,,30,40,1.", {0, 2}},
       {"SET3,10,ELEM,20,30", {}},
       {"SET3,10,GRID,20,30", {1, 2}},
+      {"SET,10,ELEM,LIST,,,,,,+\n+,20,30", {}},
+      {"SET,10,ELEM,20,30", {}},
+      {"SET,10,GRID,LIST,,,,,,+\n+,20,THRU,40,60", {1, 2, 3, 5}},
+      {"SET,10,grid,20,30", {1, 2}},
+      {"SET,10,GRID,BBOX,,20,30", {}},
+      {"SET,10,FREQ,LIST,,,,,,+\n+,20.,30", {}},
+      {"SET,10,20,30", {0, 1, 2}},
       {"PARAM,GRDPNT,20", {1}},
       {"TSTEP,10,20,30.,40", {}},
       {"DESVAR,10,A,20.", {}},
@@ -310,7 +321,7 @@ TEST_CASE("bulk data of Nastran without BEGIN BULK are read; without ENDDATA wit
   for (const char* begin : {"", "SOL 101\nCEND\n BEGIN BULK\n"}) {
     const MeshData open = read(folder, std::string(begin) + "GRID,1\nGRID,2,,1.\n");
     CHECK(open.points.size() == 2);
-    CHECK(open.notes ==
+    CHECK(notes_but_of_orders(open) ==
           std::vector<std::string>{"the bulk data have no ENDDATA: is the file complete?"});
   }
 }
@@ -319,16 +330,29 @@ TEST_CASE("cards of Nastran that name elements are kept with a note") {
   const TempFolder folder;
   const MeshData mesh =
       read(folder, replaced(text(), "FORCE ", "PLOAD4,1,7,1.\nPLOAD4,1,5,1.\nFORCE "));
-  CHECK(mesh.notes ==
+  CHECK(notes_but_of_orders(mesh) ==
         std::vector<std::string>{"the card PLOAD4 names elements: where improving replaces them "
                                  "it must be made anew"});
+}
+
+TEST_CASE("sets of elements in the bulk data of OptiStruct are told once, with the first") {
+  const TempFolder folder;
+  const std::string sets =
+      "SET,4,ELEM,LIST,,,,,,+\n+,7,5\nSET,6,GRID,LIST,,,,,,+\n+,20\nSET     5       ELEM    5\n";
+  const MeshData mesh = read(folder, replaced(kLinear, "ENDDATA", sets + "ENDDATA"));
+  CHECK(notes_but_of_orders(mesh) ==
+        std::vector<std::string>{"2 sets name elements, the first is SET 4: where improving "
+                                 "replaces them it must be made anew"});
+  write_mesh(folder / "b.bdf", mesh);
+  CHECK(read_text(folder / "b.bdf").find(sets) != std::string::npos);
 }
 
 TEST_CASE("a note about a card of Nastran is one line, also of a card of two") {
   const TempFolder folder;
   const MeshData mesh = read(folder, replaced(text(), "FORCE ", "INCLUDE,a,b\n*,c\nFORCE "));
-  REQUIRE(mesh.notes.size() == 1);
-  CHECK(mesh.notes[0].find("INCLUDE,a,b\\n*,c' includes is not read") != std::string::npos);
+  REQUIRE(notes_but_of_orders(mesh).size() == 1);
+  CHECK(notes_but_of_orders(mesh)[0].find("INCLUDE,a,b\\n*,c' includes is not read") !=
+        std::string::npos);
 }
 
 namespace {
@@ -407,7 +431,7 @@ TEST_CASE("continuations of Nastran are found by their marks, wherever they stan
     CHECK(mesh.tets == plain.tets);
     CHECK(mesh.mid_nodes == plain.mid_nodes);
     CHECK(mesh.other_elements.empty());
-    CHECK(mesh.notes.empty());
+    CHECK(notes_but_of_orders(mesh).empty());
   }
   // Others that go with their cards stay word for word.
   const MeshData mesh = read(folder, bulk(load + force + first + rest + "+1             7\n"));
@@ -445,10 +469,10 @@ TEST_CASE("a mid-side node of Nastran that is 0 is left out") {
   const MeshData none = read(folder, bulk("CTETRA,1,2,1,2,3,4,0,0,+\n+,0,0,0,0\n"));
   CHECK(none.tets == std::vector<MeshData::Tet>{{{0, 1, 2, 3}, 2}});
   CHECK(none.mid_nodes.empty());
-  CHECK(none.notes.empty());
+  CHECK(notes_but_of_orders(none).empty());
   const MeshData some = read(folder, bulk("CTETRA,1,2,1,2,3,4,5,0,+\n+,7,8,9,10\n"));
   CHECK(some.tets.empty());
-  CHECK(some.notes.size() == 1);
+  CHECK(notes_but_of_orders(some).size() == 1);
 }
 
 TEST_CASE("what follows another BEGIN of a deck of Nastran is not read, and stays") {
@@ -458,7 +482,7 @@ TEST_CASE("what follows another BEGIN of a deck of Nastran is not read, and stay
       read(folder, "BEGIN BULK\n" + std::string(kPoints) + "CTETRA,1,2,1,2,3,4\n" + rest);
   CHECK(mesh.tets.size() == 1);
   CHECK(mesh.points[0] == Point(0, 0, 0));
-  CHECK(mesh.notes ==
+  CHECK(notes_but_of_orders(mesh) ==
         std::vector<std::string>{
             "the bulk data of superelements stay as they are: what they say is not read"});
   write_mesh(folder / "b.bdf", mesh);
@@ -494,8 +518,9 @@ TEST_CASE(
   const MeshData mesh = read(
       folder, bulk("CTETRA,1,2,1,2,3,4 $ lost\nCTETRA,2,2,1,2,3,4,5,6,+ $ lost\n+,7,8,9,10 $ too\n"
                    "GRID,11,,9.,0.,0.,5 $ kept\nCTRIA3,3,1,1,2,3,45. $ kept\nPSOLID,2,1 $ kept\n"));
-  CHECK(mesh.notes == std::vector<std::string>{
-                          "comments behind the fields of points and elements are not kept: 2"});
+  CHECK(notes_but_of_orders(mesh) ==
+        std::vector<std::string>{
+            "comments behind the fields of points and elements are not kept: 2"});
   write_mesh(folder / "b.bdf", mesh);
   const std::string written = test::read_text(folder / "b.bdf");
   for (const std::string_view line :
@@ -557,7 +582,7 @@ TEST_CASE("an element of Nastran that leaves out mid-side nodes stays as it is, 
   REQUIRE(mesh.other_elements.size() == 1);
   CHECK(mesh.other_elements[0].vertices == std::vector<std::uint32_t>{0, 1, 2, 3});
   CHECK(mesh.triangles.size() == 1);
-  CHECK(mesh.notes ==
+  CHECK(notes_but_of_orders(mesh) ==
         std::vector<std::string>{
             "1 CTETRA leave out some of their mid-side nodes: they stay as they are, and where "
             "they are",
@@ -657,8 +682,9 @@ TEST_CASE(
   CHECK(mesh.required_vertices == std::vector<std::uint32_t>{0, 1, 9});  // CBAR, SPC1
   CHECK(mesh.deck[formats::nastran_cards] ==
         "INCLUDE loads.bdf\nCBAR,900,1,1,2,0.,0.,1.\nPSOLID,2,1\n");
-  CHECK(mesh.notes.size() == 1);
-  CHECK(mesh.notes[0].find("mesh.bdf is not kept, nor what follows") != std::string::npos);
+  CHECK(notes_but_of_orders(mesh).size() == 1);
+  CHECK(notes_but_of_orders(mesh)[0].find("mesh.bdf is not kept, nor what follows") !=
+        std::string::npos);
   CHECK(not_written(folder / "b.bdf", mesh).empty());
   const auto elsewhere = not_written(folder / "sub" / "b.bdf", mesh);
   REQUIRE(elsewhere.size() == 1);
@@ -675,8 +701,8 @@ TEST_CASE(
     "refused") {
   const TempFolder folder;
   const MeshData mesh = read(folder, bulk("INCLUDE 'gone.bdf'\n"));
-  REQUIRE(mesh.notes.size() == 1);
-  CHECK(mesh.notes[0].find("what 'INCLUDE 'gone.bdf'' includes is not read: ") == 0);
+  REQUIRE(notes_but_of_orders(mesh).size() == 1);
+  CHECK(notes_but_of_orders(mesh)[0].find("what 'INCLUDE 'gone.bdf'' includes is not read: ") == 0);
   CHECK(mesh.deck[formats::nastran_cards] == "INCLUDE 'gone.bdf'\n");
   write_text(folder / "a.bdf", bulk("INCLUDE 'a.bdf'\n"));
   CHECK(error_of_reading(folder / "a.bdf").find("a.bdf:12: 'INCLUDE 'a.bdf'' includes itself") ==
@@ -691,7 +717,7 @@ TEST_CASE("elements of two kinds may share a number in a deck of Nastran, and ke
   const TempFolder folder;
   const MeshData mesh =
       read(folder, bulk("CQUAD4,1,2,1,2,3,4,45.\nCTETRA,1,3,1,2,3,4\nCTRIA3,1,3,1,2,3\n"));
-  CHECK(mesh.notes.size() == 1);
+  CHECK(notes_but_of_orders(mesh).size() == 1);
   write_mesh(folder / "b.bdf", mesh);
   const std::string written = test::read_text(folder / "b.bdf");
   CHECK(written.find("CTETRA,1,3,1,2,3,4\n") != std::string::npos);
@@ -803,8 +829,8 @@ TEST_CASE("the name of an included file that is too long for any is a file that 
   const TempFolder folder;
   const MeshData mesh =
       read(folder, replaced(text(), "FORCE ", "INCLUDE '" + std::string(5000, 'x') + "'\nFORCE "));
-  REQUIRE(!mesh.notes.empty());
-  CHECK(mesh.notes[0].find("includes is not read") != std::string::npos);
+  REQUIRE(!notes_but_of_orders(mesh).empty());
+  CHECK(notes_but_of_orders(mesh)[0].find("includes is not read") != std::string::npos);
 }
 
 TEST_CASE("a deck asked for in short, long or free fields has them, and says the same") {
@@ -821,6 +847,9 @@ TEST_CASE("a deck asked for in short, long or free fields has them, and says the
       {"long",
        "BEGIN BULK\nGRID*                  1                              0.              0.\n"
        "*                     0.\n"},
+      {"rounded",
+       "BEGIN BULK\nGRID*                  1                              0.              0.\n"
+       "*                     0.\n"},
       {"free",
        "BEGIN BULK\nGRID,1,,0.,0.,0.\nGRID,2,,0.125,0.,0.\nGRID,3,,0.,0.3333333333333333,0.\n"}};
   for (const auto& [name, beginning] : beginnings) {
@@ -834,7 +863,7 @@ TEST_CASE("a deck asked for in short, long or free fields has them, and says the
                         ? "CTETRA,1,4,1,2,3,4"
                         : "CTETRA         1       4       1       2       3       4\n") !=
           std::string::npos);
-    CHECK(same_mesh(read_mesh(folder / "a.bdf"), mesh));
+    if (variant != "rounded") CHECK(same_mesh(read_mesh(folder / "a.bdf"), mesh));
   }
 }
 
@@ -852,4 +881,60 @@ TEST_CASE("cards of a deck that say more keep it in the form that is asked for")
             .find("GRID           1       5      0.      0.      0.       5     123\n") !=
         std::string::npos);
   CHECK(read_text(folder / "b.bdf").find("CORD2R,5,,0.") != std::string::npos);
+}
+
+TEST_CASE("rounded coordinates of Nastran have fixed fields alone, and are counted") {
+  const TempFolder folder;
+  MeshData mesh;
+  mesh.points = {{0, 0, 0}, {0.125, 0, 0}, {1.0 / 3, -1e-5 / 3, 0}, {0, 0, 0.1234567890123456}};
+  mesh.tets = {{{0, 1, 2, 3}, 4}};
+  const std::filesystem::path file = folder / "a.bdf";
+  CHECK(not_written(file, mesh).empty());
+  CHECK(not_written(file, mesh, "free").empty());
+  CHECK(not_written(file, mesh, "rounded") ==
+        std::vector<std::string>{
+            "3 coordinates are rounded to 16 characters, which is what solvers read"});
+  MeshView view(mesh);
+  view.set_variant("rounded");
+  write_mesh(file, view);
+  const std::string text = read_text(file);
+  CHECK(text.find("GRID,") == std::string::npos);
+  CHECK(text.find("GRID*,") == std::string::npos);
+  CHECK(text.find(".333333333333333-3.33333333333-6\n") != std::string::npos);
+  const MeshData again = read_mesh(file);
+  CHECK(again.tets == mesh.tets);
+  for (std::size_t i = 0; i < 4; ++i) CHECK((again.points[i] - mesh.points[i]).norm() < 1e-14);
+  CHECK(not_written(file, again, "rounded").empty());
+  // The card of a point that was read has them, too.
+  const MeshData deck =
+      read(folder, replaced(kLinear, "GRID,30,,1.", "GRID,30,0,0.10000000000000001,,,,5"));
+  MeshView of_deck(deck);
+  of_deck.set_variant("rounded");
+  write_mesh(file, of_deck);
+  CHECK(read_text(file).find("GRID*                 30               0             0.1") !=
+        std::string::npos);
+}
+
+TEST_CASE("who reads the coordinates of Nastran that need more than 16 characters is told") {
+  const TempFolder folder;
+  MeshData mesh;
+  mesh.points = {{0, 0, 0}, {0.125, 0, 0}, {1.0 / 3, 0, 0}, {0, 0, 0.1234567890123456}};
+  mesh.tets = {{{0, 1, 2, 3}, 4}};
+  const auto remarks = [&](const MeshData& of, std::string_view variant) {
+    return remarks_on_writing(folder / "a.bdf", of, variant);
+  };
+  REQUIRE(remarks(mesh, "").size() == 1);
+  CHECK(remarks(mesh, "")[0].starts_with("2 points need more than 16 characters"));
+  for (const std::string_view variant : {"free", "long", "short"}) {
+    REQUIRE(remarks(mesh, variant).size() == 1);
+    CHECK(remarks(mesh, variant)[0].find("solvers round free fields") != std::string::npos);
+  }
+  CHECK(remarks(mesh, "rounded").empty());
+  MeshData fits = mesh;
+  fits.points[2] = {0.25, 0, 0};
+  fits.points[3] = {0, 0, 0.123456789012345};
+  CHECK(remarks(fits, "").empty());
+  CHECK(remarks(fits, "long").empty());
+  fits.variant = mesh.variant = formats::kNastran;  // as the deck had it
+  CHECK(remarks(mesh, "").empty());
 }
