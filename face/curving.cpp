@@ -25,6 +25,34 @@ constexpr double kEnough = 0.3;
 /// What is wished for while edges give way to each other.
 constexpr double kWanted = 0.3;
 
+/// At the points of a fine grid: a determinant may fall below 0 between the nodes.
+bool falls_below_zero(const std::array<double, 20>& coefficients) {
+  if (std::all_of(coefficients.begin(), coefficients.end(), [](double c) { return c > 0; }))
+    return false;
+  constexpr int kSteps = 8;
+  std::array<double, 4> at{};
+  for (int i = 0; i <= kSteps; ++i) {
+    for (int j = 0; i + j <= kSteps; ++j) {
+      for (int k = 0; i + j + k <= kSteps; ++k) {
+        at = {static_cast<double>(kSteps - i - j - k) / kSteps, static_cast<double>(i) / kSteps,
+              static_cast<double>(j) / kSteps, static_cast<double>(k) / kSteps};
+        double value = 0;
+        std::size_t next = 0;
+        for (std::size_t a = 0; a < 4; ++a) {
+          for (std::size_t b = a; b < 4; ++b) {
+            for (std::size_t c = b; c < 4; ++c) {
+              const int ways = a == c ? 1 : a == b || b == c ? 3 : 6;
+              value += ways * coefficients[next++] * at[a] * at[b] * at[c];
+            }
+          }
+        }
+        if (value <= 0) return true;
+      }
+    }
+  }
+  return false;
+}
+
 class Curver {
  public:
   /// How an edge gets its bend.
@@ -36,10 +64,20 @@ class Curver {
     index_tets();
   }
 
-  std::vector<std::uint32_t> turned_over() const {
-    std::vector<std::uint32_t> over;
+  struct Over {
+    std::vector<std::uint32_t> tets;  ///< turned over anywhere
+    std::size_t at_nodes = 0;         ///< of them: at a node, which counts
+  };
+  Over turned_over() const {
+    Over over;
     for (std::uint32_t t = 0; t < data_.tets.size(); ++t) {
-      if (is_turned_over(t)) over.push_back(t);
+      const CurvedTet tet(data_, mid_nodes_, data_.tets[t]);
+      if (!tet.is_curved) continue;
+      const JacobianRatio ratio = jacobian_ratio(tet.vertices, tet.bends);
+      if (ratio.bound > 0) continue;
+      over.at_nodes += ratio.at_nodes <= 0 ? 1 : 0;
+      if (ratio.at_nodes <= 0 || falls_below_zero(jacobian_coefficients(tet.vertices, tet.bends)))
+        over.tets.push_back(t);
     }
     return over;
   }
@@ -148,11 +186,6 @@ class Curver {
     edges_at_ = group_by_key(nodes, none + 1);
   }
 
-  bool is_turned_over(std::uint32_t t) const {
-    const CurvedTet tet(data_, mid_nodes_, data_.tets[t]);
-    return tet.is_curved && jacobian_ratio(tet.vertices, tet.bends).at_nodes <= 0;
-  }
-
   static Point middle(const CurvedTet& tet, std::size_t e) {
     return (tet.vertices[kMidNodeEdges[e][0]] + tet.vertices[kMidNodeEdges[e][1]]) / 2;
   }
@@ -209,19 +242,19 @@ class Curver {
 };
 
 /// As long as that helps; what leaves more of them is undone. `over` becomes what is left.
-void curve_all(MeshData& data, Curver& curver, std::vector<std::uint32_t>& over) {
-  for (bool helps = true; helps && !over.empty();) {
+void curve_all(MeshData& data, Curver& curver, Curver::Over& over) {
+  for (bool helps = true; helps && !over.tets.empty();) {
     helps = false;
     for (const bool eases : {true, false}) {
       std::vector<Point> before = data.points;
-      if (eases) curver.ease(over);
-      curver.curve(over);
-      std::vector<std::uint32_t> left = curver.turned_over();
-      if (left.size() > over.size()) {
+      if (eases) curver.ease(over.tets);
+      curver.curve(over.tets);
+      Curver::Over left = curver.turned_over();
+      if (left.tets.size() > over.tets.size() || left.at_nodes > over.at_nodes) {
         data.points = std::move(before);
         continue;
       }
-      helps = left.size() < over.size();
+      helps = left.tets.size() < over.tets.size();
       over = std::move(left);
       break;
     }
@@ -262,22 +295,22 @@ Curving curve_inside(MeshData& data, const std::vector<bool>& is_frozen, bool st
   if (then.turned_over == 0) return done;
   const std::vector<Point> before = data.points;
   Curver curver(data, is_frozen);
-  std::vector<std::uint32_t> over = curver.turned_over();
+  Curver::Over over = curver.turned_over();
   curve_all(data, curver, over);
-  while (straightens && !over.empty() && curver.straighten(over) > 0) {
+  while (straightens && !over.tets.empty() && curver.straighten(over.tets) > 0) {
     over = curver.turned_over();
     curve_all(data, curver, over);
   }
   done.curved = curver.count_moved(before, true);
   done.straightened = curver.count_moved(before, false);
-  done.left = over.size();
+  done.left = over.at_nodes;
   const JacobianRatio now = curved_statistics(data).worst;
   if (now.at_nodes < then.worst.at_nodes || now.bound < then.worst.bound) {
     data.points = before;  // what is promised of the worst goes first
     done = {0, 0, then.turned_over, {}};
     over = curver.turned_over();
   }
-  tell(done, then.turned_over, curver.count_holding(over), straightens, done.notes);
+  tell(done, then.turned_over, curver.count_holding(over.tets), straightens, done.notes);
   return done;
 }
 

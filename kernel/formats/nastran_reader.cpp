@@ -100,6 +100,7 @@ class Reader : private NastranCardReader {
   }
 
   void keep_include(const NastranStretch& stretch) {
+    is_of_mesh_ = false;
     keep({stretch.begin, static_cast<std::size_t>(stretch.end - stretch.begin)});
     mesh_.deck[nastran_folder] =
         std::filesystem::absolute(path_).parent_path().lexically_normal().string();
@@ -111,17 +112,17 @@ class Reader : private NastranCardReader {
     const bool is_stray = sources_.is_stray(lines.position());
     lines.read(card_);
     if (is_stray) return;
+    if (card_.name.empty() || first == '+') {
+      if (first == '+' || !is_blank(0))
+        fail({}, "a continuation without a card: expected the name of a card");
+      return;
+    }
     const bool was_of_mesh = std::exchange(is_of_mesh_, card_.name == "GRID");
     if (is_of_mesh_) return;
     if (card_.name.starts_with('=') && was_of_mesh) {
       fail({},
            "points and elements that repeat the card before cannot be read: expected GRID and "
            "elements without '='");
-    }
-    if (card_.name.empty() || first == '+') {
-      if (first == '+' || !is_blank(0))
-        fail({}, "a continuation without a card: expected the name of a card");
-      return;
     }
     is_of_mesh_ = read_element();
     if (!is_of_mesh_) keep_card();
@@ -335,8 +336,8 @@ class Reader : private NastranCardReader {
   ElementRow row_;
   std::string name_of_kinds_;  // of the card that they are of
   std::vector<const ElementKind*> kinds_;
-  bool is_of_mesh_ = false;  // the card before: a point or an element
-  bool is_written_ = true;   // what is read now is written again, line by line
+  bool is_of_mesh_ = true;  // the card before: a point or an element, or there is none
+  bool is_written_ = true;  // what is read now is written again, line by line
   std::vector<Element> elements_;
   std::vector<Element> without_property_;
   std::set<std::int64_t> properties_;           // their numbers

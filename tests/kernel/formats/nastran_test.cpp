@@ -800,6 +800,10 @@ TEST_CASE("a bad deck of Nastran is refused with line and reason") {
       {"label", replaced(good, "CTETRA,5,,20", "CTETRA,5,3000000000,20"),
        "15: ", "'3000000000' is out of range: expected the number of a property"},
       {"number", replaced(good, "CTETRA,5,", "CTETRA,0,"), "15: ", "'0' is out of range"},
+      {"repeated", replaced(good, "PARAM,POST,-1", "=,2,,1."),
+       "6: ", "points and elements that repeat the card before cannot be read"},
+      {"repeated", replaced(good, "GRID,70", "\n=,65,,1.\nGRID,70"),
+       "26: ", "points and elements that repeat the card before cannot be read"},
       {"continuation", replaced(good, "PARAM,POST,-1", "+,1"),
        "6: ", "a continuation without a card"},
   };
