@@ -21,8 +21,9 @@ void offer_trials(Session& session, const std::vector<VertexHandle>& part) {
   for (const OperatorInfo* info : session.document.live.registry().operators()) {
     if (vertices_of(info->target) != part.size()) continue;
     const std::string name(info->name);
-    if (entry(name))
-      guarded(session.document, [&] { session.document.try_operator({name, part, {}}); });
+    if (entry(name)) {
+      do_soon(session, [&d = session.document, name, part] { d.try_operator({name, part, {}}); });
+    }
     if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", std::string(info->help).c_str());
   }
   ImGui::EndMenu();

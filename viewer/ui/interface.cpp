@@ -413,6 +413,7 @@ void Interface::build(Session& session) {
   ImGui::NewFrame();
   const Layout layout = lay_out(document, scale_);
   document.hovering = {};
+  session.is_drawing = true;
   ImFont* font = layout.is_teaching ? large_ : ImGui::GetFont();
   Choice choice;
   const bool is_whole = guarded(document, [&] {
@@ -447,6 +448,8 @@ void Interface::build(Session& session) {
   ImGui::PopFont();
   document.hovered = document.hovering;
   ImGui::Render();
+  session.is_drawing = false;
+  do_asked(session);
   if (choice.command != nullptr) run_from_window(*choice.command, session, choice.arguments);
 }
 

@@ -5,6 +5,7 @@
 
 #include <doctest/doctest.h>
 
+#include "kernel/formats/mesh_io.h"
 #include "tests/support/example_traces.h"
 #include "tests/viewer/window.h"
 #include "trace/ledger.h"
@@ -72,6 +73,51 @@ TEST_CASE(
     }
     CHECK(entered.missing() == least);
   }
+}
+
+TEST_CASE("an operator tried by clicks and undone by one leaves the bytes that Save writes") {
+  if (!can_test_window()) return;
+  Viewer viewer("sheet.mesh", kSize);
+  const auto save = [](const std::string& name) {
+    const std::filesystem::path file = std::filesystem::current_path() / name;
+    type("key ctrl+s type " + file.string());
+    type("key Return");
+    wait_for(file);
+    wait_until_still();  // it is written whole
+    return read_text(file);
+  };
+  const std::string before = save("before.mesh");
+  Hand hand;
+  hand.click(640, 400, 3);
+  Hand::move(670, 458);  // Try ...
+  hand.click(830, 460);
+  wait_until_still();
+  hand.click(976, 166);  // Undo, which is there as the trial was accepted
+  CHECK(hand.actions == 3);
+  CHECK(save("after.mesh") == before);
+  const std::filesystem::path converted = std::filesystem::current_path() / "converted.mesh";
+  write_mesh(converted, read_mesh(TETMEND_SOURCE_DIR "/assets/meshes/sheet.mesh"));
+  CHECK(read_text(converted) == before);
+  const auto state = viewer.quit();
+  CHECK(state["trial"].is_null());
+  CHECK(state["unsaved"] == false);
+  CHECK(state["tets"] == 3327);
+}
+
+TEST_CASE("what is tried again with a parameter of the panel, and then kept, is not saved yet") {
+  if (!can_test_window()) return;
+  Viewer viewer("sheet.mesh", kSize);
+  Hand hand;
+  hand.click(640, 400, 3);
+  Hand::move(670, 458);
+  hand.click(830, 460);
+  wait_until_still();
+  hand.click(1030, 193);  // one more ring of vertices
+  wait_until_still();
+  hand.click(921, 166);  // Keep
+  const auto state = viewer.quit();
+  CHECK(state["trial"].is_null());
+  CHECK(state["unsaved"] == true);
 }
 
 TEST_CASE("an operator is tried on a picked tet by two clicks") {
