@@ -4,6 +4,7 @@
 
 #include <imgui.h>
 
+#include "viewer/ui/call_row.h"
 #include "viewer/ui/panels.h"
 #include "viewer/ui/parameter_field.h"
 #include "viewer/ui/wrapped_text.h"
@@ -27,12 +28,10 @@ void try_again(Session& session, TrialRequest request, std::string_view name, do
 
 void edit_settings(Session& session, const OperatorInfo& info) {
   const TrialRequest& request = session.document.trial()->request();
-  ImGui::PushItemWidth(0.4F * ImGui::GetContentRegionAvail().x);
   for (const ParameterSpec& spec : info.parameters) {
     const auto value = edit_value(spec, value_of(request, spec));
     if (value) try_again(session, request, spec.name, *value);
   }
-  ImGui::PopItemWidth();
 }
 
 /// Another operator at the same place.
@@ -41,11 +40,11 @@ void choose_operator(Session& session) {
   const TrialRequest& request = document.trial()->request();
   std::string chosen;
   ImGui::SetNextItemWidth(-1);
-  if (!ImGui::BeginCombo("##operator", request.operator_name.c_str())) return;
+  if (!ImGui::BeginCombo("##operator", spaced(request.operator_name).c_str())) return;
   for (const OperatorInfo* info : document.live.registry().operators()) {
     if (vertices_of(info->target) != request.target.size()) continue;
     const std::string name(info->name);
-    if (ImGui::Selectable(name.c_str(), name == request.operator_name)) chosen = name;
+    if (ImGui::Selectable(spaced(name).c_str(), name == request.operator_name)) chosen = name;
   }
   ImGui::EndCombo();
   if (chosen.empty()) return;
