@@ -113,15 +113,14 @@ void run_from_window(const Command& command, Session& session, const json& argum
 }
 
 std::string command_reference() {
-  std::string text = "| Key | Effect |\n|---|---|\n";
+  std::string text = "| Key or mouse | Word of a script | Effect |\n|---|---|---|\n";
   for (const auto& gesture : kGestures) {
-    text += fmt::format("| {} | {} |\n", gesture.first, gesture.second);
+    text += fmt::format("| {} | | {} |\n", gesture.first, gesture.second);
   }
   for (const Command& c : commands()) {
-    if (!c.keys.empty()) text += fmt::format("| `{}` | {} |\n", c.keys, c.help);
+    const std::string key = c.keys.empty() ? "" : fmt::format(" `{}`", c.keys);
+    text += fmt::format("|{} | `{}` | {} |\n", key, c.usage, c.help);
   }
-  text += "\n| Word | Effect |\n|---|---|\n";
-  for (const Command& c : commands()) text += fmt::format("| `{}` | {} |\n", c.usage, c.help);
   return text;
 }
 

@@ -71,7 +71,7 @@ void do_asked(Session& session);
 void run_from_window(const Command& command, Session& session,
                      const nlohmann::json& arguments = nlohmann::json::array());
 
-/// Two Markdown tables: keys and mouse; words of scripts. For the manual.
+/// A Markdown table: keys and mouse, words of scripts, what they do. For the manual.
 std::string command_reference();
 
 /// What the mouse does: gesture and effect.
