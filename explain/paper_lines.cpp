@@ -134,6 +134,12 @@ constexpr std::array<std::string_view, 6> kJoint = {
     "    move the vertices there"};
 constexpr Pseudocode kJointCode = {"Joint smoothing of tet t", kJoint};
 
+constexpr std::array<std::string_view, 5> kMean = {
+    "go to where the tets around vertex v are round on average", "if their mean gains enough",
+    "    for all, a half and a quarter of the way there",
+    "        move v; if the tets are better as a whole", "            keep it"};
+constexpr Pseudocode kMeanCode = {"Mean smoothing of vertex v", kMean};
+
 constexpr std::array<std::string_view, 7> kSequence = {
     "opening: the first operator, which may make tets worse",
     "if it has changed nothing: fail",
@@ -163,6 +169,7 @@ constexpr std::array<Lines, 6> kLines = {{
 
 // Those that a trace knows by their names alone.
 constexpr Lines kJointLines = {Algorithm::other, &kJointCode, 1, 4, 6, 5, 2, 6, 5, 4, 1};
+constexpr Lines kMeanLines = {Algorithm::other, &kMeanCode, 1, 2, 4, 4, 1, 5, 4, 2, 1};
 constexpr Lines kSequenceLines = {Algorithm::other, &kSequenceCode, 1, 5, 1, 7, 4, 6, 7, 2, 1};
 
 const Lines* lines_of(const TraceFile& file, const Call& call) {
@@ -172,6 +179,7 @@ const Lines* lines_of(const TraceFile& file, const Call& call) {
   if (call.algorithm != Algorithm::other) return nullptr;
   const std::string_view name = file.name(call.operator_name);
   if (name == "joint_smoothing") return &kJointLines;
+  if (name == "mean_smoothing") return &kMeanLines;
   return name.substr(0, name.find('(')) == "sequence" ? &kSequenceLines : nullptr;
 }
 

@@ -225,10 +225,10 @@ History history_of(const TraceFile& file, Replay& replay, const HistorySubject& 
   find_life(follower, history);
   if (!history.from_beginning) history.made_by = file.call_at(history.made);
   if (history.removed) history.removed_by = file.call_at(*history.removed);
-  replay.seek(history.removed ? *history.removed : file.event_count());
+  const SlotMesh& mesh = replay.mesh_at(history.removed ? *history.removed : file.event_count());
   history.parts = parts_of(subject);
-  find_surface(replay.mesh(), history.parts);
-  if (subject.size() == 4) measure_tet(replay.mesh(), history);
+  find_surface(mesh, history.parts);
+  if (subject.size() == 4) measure_tet(mesh, history);
   find_calls(file, history);
   return history;
 }

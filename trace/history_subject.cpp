@@ -125,8 +125,7 @@ HistorySubject find_by_file(const TraceFile& file, Replay& replay, const Questio
     for (const std::uint32_t v : question.numbers) places.push_back(mesh.points[v - 1]);
   }
   for (const std::uint64_t position : {file.event_count(), std::uint64_t{0}}) {
-    replay.seek(position);
-    const HistorySubject found = vertices_at(replay.mesh(), places);
+    const HistorySubject found = vertices_at(replay.mesh_at(position), places);
     if (!found.empty()) return found;
   }
   throw Error(
@@ -144,8 +143,7 @@ std::filesystem::path file_of_question(std::string_view text) {
 HistorySubject find_subject(const TraceFile& file, Replay& replay, std::string_view text) {
   const Question question = parse(text);
   if (!question.file.empty()) return find_by_file(file, replay, question, text);
-  replay.seek(file.event_count());
-  const SlotMesh& mesh = replay.mesh();
+  const SlotMesh& mesh = replay.mesh_at(file.event_count());
   if (question.worst) return worst_tet(mesh);
   if (question.numbers.size() == 1 && question.form.vertices == 4) {
     const TetHandle t(question.numbers[0]);

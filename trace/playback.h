@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "trace/change_log.h"
@@ -32,6 +33,8 @@ class Playback {
   explicit Playback(const SlotMesh& mesh) : mesh_(mesh) {}
 
   const SlotMesh& mesh() const { return mesh_; }
+  /// To be asked for last.
+  SlotMesh take_mesh() { return std::move(mesh_); }
   /// Another mesh, before event `position`; the log is empty then.
   void reset(const SlotMesh& mesh, std::uint64_t position);
   /// Empties the log: what was done cannot be undone. The next event is number `position`.

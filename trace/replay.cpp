@@ -80,6 +80,13 @@ void Replay::seek(std::uint64_t position) {
   forward_to(position);
 }
 
+const SlotMesh& Replay::mesh_at(std::uint64_t position) {
+  const bool is_end = position == file_.event_count();
+  if (is_end && position_ != position && file_.last_mesh() != nullptr) return *file_.last_mesh();
+  seek(position);
+  return mesh();
+}
+
 void Replay::forward_to(std::uint64_t position) {
   if (position == position_) return;
   cursor_.move_to(position_);

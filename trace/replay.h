@@ -48,6 +48,9 @@ class Replay {
   void seek(std::uint64_t position);
 
   const SlotMesh& mesh() const { return playback_.mesh(); }
+  /// The mesh at that position, where this goes; but stays where it is if the file has the mesh, as it
+  /// has that at its end.
+  const SlotMesh& mesh_at(std::uint64_t position);
   /// What event number position() - 1 did.
   Cavity cavity() const;
   /// The slots that were written on the way here.

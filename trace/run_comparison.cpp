@@ -284,19 +284,19 @@ RunComparison compare_runs(const TraceFile& a, const TraceFile& b) {
   comparison.same_beginning = a.initial_mesh().fingerprint() == b.initial_mesh().fingerprint();
   Replay of_a(a, 0);
   Replay of_b(b, 0);
-  of_a.seek(a.event_count());
-  of_b.seek(b.event_count());
-  const Standard& by_a = of_a.mesh().standard();
-  const Standard& by_b = of_b.mesh().standard();
+  const SlotMesh& mesh_a = of_a.mesh_at(a.event_count());
+  const SlotMesh& mesh_b = of_b.mesh_at(b.event_count());
+  const Standard& by_a = mesh_a.standard();
+  const Standard& by_b = mesh_b.standard();
   comparison.same_goal = by_a.goal() == by_b.goal() && by_a.measure_name() == by_b.measure_name();
-  std::vector<BadTet> bad_a = bad_tets(of_a.mesh());
-  std::vector<BadTet> bad_b = bad_tets(of_b.mesh());
-  find_there(of_b.mesh(), bad_a);
-  find_there(of_a.mesh(), bad_b);
+  std::vector<BadTet> bad_a = bad_tets(mesh_a);
+  std::vector<BadTet> bad_b = bad_tets(mesh_b);
+  find_there(mesh_b, bad_a);
+  find_there(mesh_a, bad_b);
   comparison.bad_in_a = bad_a.size();
   comparison.bad_in_b = bad_b.size();
-  comparison.worse_in_a = pairs_of(of_a.mesh(), of_b.mesh(), bad_a);
-  comparison.worse_in_b = pairs_of(of_b.mesh(), of_a.mesh(), bad_b);
+  comparison.worse_in_a = pairs_of(mesh_a, mesh_b, bad_a);
+  comparison.worse_in_b = pairs_of(mesh_b, mesh_a, bad_b);
   return comparison;
 }
 

@@ -22,33 +22,33 @@ class TetFaces {
 
   /// Room for the faces of so many tets.
   void reserve(std::size_t tets) {
-    std::size_t size = kLeast;
-    while (size < 3 * tets) size *= 2;
+    const std::size_t size = size_for(tets);
     if (size > entries_.size()) rehash(size);
   }
   /// False if the face has a tet on this side already.
   bool add(const TetVertices& tet, unsigned face) {
-    if (4 * (used_ + 1) > 3 * entries_.size()) make_room();
     const auto [key, side] = key_of(tet, face);
-    Entry& entry = probe(key);
-    if (entry.sides == kFree) {
-      entry = {key, 0};
-      ++used_;
+    return put(key, 0, side);
+  }
+  /// As if all faces of `gone`, which were added, were removed and then those of `come` added; but
+  /// only what differs is touched. False if one of `come` has a tet on its side already.
+  bool exchange(const TetFaces& gone, const TetFaces& come) {
+    for (const Entry& entry : gone.entries_) {
+      if (!entry.is_there()) continue;
+      const std::uint32_t sides = come.bits_of(entry.key);
+      if (sides != entry.sides && !put(entry.key, entry.sides, sides)) return false;
     }
-    const bool is_new = (entry.sides & side) == 0;
-    entry.sides |= side;
-    return is_new;
+    return std::all_of(come.entries_.begin(), come.entries_.end(), [&](const Entry& entry) {
+      return !entry.is_there() || gone.bits_of(entry.key) != 0 || put(entry.key, 0, entry.sides);
+    });
   }
-  /// Precondition: it was added.
-  void remove(const TetVertices& tet, unsigned face) {
-    const auto [key, side] = key_of(tet, face);
-    probe(key).sides &= ~side;  // the entry stays until the next rehash
-  }
-  /// What one large cavity took is given back: clearing stays cheap.
-  void clear() {
-    constexpr std::size_t kKept = 16 * kLeast;
-    if (entries_.size() > kKept) entries_ = std::vector<Entry>(kLeast);
-    if (used_ > 0) entries_.assign(entries_.size(), Entry());
+  /// To take the faces of so many tets. What follows costs as much as these, and what one large
+  /// cavity took is given back.
+  void clear(std::size_t tets = 0) {
+    constexpr std::size_t kKept = 1024;
+    const std::size_t size = size_for(tets);
+    if (entries_.capacity() > std::max(kKept, size)) entries_ = {};
+    entries_.assign(size, Entry());
     used_ = 0;
   }
   /// The same faces have a tet on one side only, and that the same.
@@ -78,15 +78,21 @@ class TetFaces {
 
  private:
   using Key = std::array<std::uint32_t, 3>;  // sorted
-  static constexpr std::size_t kLeast = 64;
+  static constexpr std::size_t kLeast = 16;
   static constexpr std::uint32_t kFree = 4;
 
   struct Entry {
     Key key{};
     std::uint32_t sides = kFree;  // bits: a tet that lists it evenly, one that does not
     bool is_open() const { return sides == 1 || sides == 2; }
+    bool is_there() const { return sides != 0 && sides != kFree; }
   };
 
+  static std::size_t size_for(std::size_t tets) {
+    std::size_t size = kLeast;
+    while (size < 3 * tets) size *= 2;
+    return size;
+  }
   static std::pair<Key, std::uint32_t> key_of(const TetVertices& tet, unsigned face) {
     const auto& local = kFaceVertices[face];
     Key key = {tet[local[0]].index(), tet[local[1]].index(), tet[local[2]].index()};
@@ -108,9 +114,25 @@ class TetFaces {
       mixed ^= mixed >> 32;
     }
     std::size_t i = mixed & (entries_.size() - 1);
-    while (entries_[i].sides != kFree && entries_[i].key != key)
+    while (entries_[i].sides != kFree && !is_same(entries_[i].key, key))
       i = (i + 1) & (entries_.size() - 1);
     return i;
+  }
+  /// Three comparisons; that of arrays is a call of the C library.
+  static bool is_same(const Key& a, const Key& b) {
+    return ((a[0] ^ b[0]) | (a[1] ^ b[1]) | (a[2] ^ b[2])) == 0;
+  }
+  bool put(const Key& key, std::uint32_t gone, std::uint32_t come) {
+    if (4 * (used_ + 1) > 3 * entries_.size()) make_room();
+    Entry& entry = probe(key);
+    if (entry.sides == kFree) {
+      entry = {key, 0};
+      ++used_;
+    }
+    entry.sides &= ~gone;  // the entry stays until the next rehash
+    const bool is_new = (entry.sides & come) == 0;
+    entry.sides |= come;
+    return is_new;
   }
   Entry& probe(const Key& key) { return entries_[place_of(key)]; }
   std::uint32_t sides_of(const Key& key) const { return entries_[place_of(key)].sides; }
@@ -121,8 +143,7 @@ class TetFaces {
   }
   void make_room() {
     const auto live = static_cast<std::size_t>(
-        std::count_if(entries_.begin(), entries_.end(),
-                      [](const Entry& entry) { return entry.sides != 0 && entry.sides != kFree; }));
+        std::count_if(entries_.begin(), entries_.end(), std::mem_fn(&Entry::is_there)));
     rehash(2 * live > entries_.size() ? 2 * entries_.size() : entries_.size());
   }
   /// Forgets the faces without a tet.
@@ -130,7 +151,7 @@ class TetFaces {
     const std::vector<Entry> old = std::exchange(entries_, std::vector<Entry>(size));
     used_ = 0;
     for (const Entry& entry : old) {
-      if (entry.sides == kFree || entry.sides == 0) continue;
+      if (!entry.is_there()) continue;
       probe(entry.key) = entry;
       ++used_;
     }

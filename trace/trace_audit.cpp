@@ -11,6 +11,15 @@ std::string text_of(const TetVertices& tet) {
   return fmt::format("{} {} {} {}", tet[0].index(), tet[1].index(), tet[2].index(), tet[3].index());
 }
 
+bool is_same(const TetVertices& a, const TetVertices& b) {
+  return a[0] == b[0] && a[1] == b[1] && a[2] == b[2] && a[3] == b[3];
+}
+
+[[noreturn]] void fail_at(const TetVertices& tet) {
+  throw ByteReader::Damage(
+      fmt::format("tet {} lies on the same side of a face as another", text_of(tet)));
+}
+
 }  // namespace
 
 TraceAudit::TraceAudit(const SlotMesh& mesh)
@@ -23,16 +32,9 @@ TraceAudit::TraceAudit(const SlotMesh& mesh)
 
 void TraceAudit::add_tet(const TetVertices& tet) {
   for (unsigned f = 0; f < 4; ++f) {
-    if (faces_.add(tet, f)) continue;
-    throw ByteReader::Damage(
-        fmt::format("tet {} lies on the same side of a face as another", text_of(tet)));
+    if (!faces_.add(tet, f)) fail_at(tet);
   }
   for (const VertexHandle v : tet) ++tets_of_[v.index()];
-}
-
-void TraceAudit::remove_tet(const TetVertices& tet) {
-  for (unsigned f = 0; f < 4; ++f) faces_.remove(tet, f);
-  for (const VertexHandle v : tet) --tets_of_[v.index()];
 }
 
 void TraceAudit::follow(const TraceEvent& event) {
@@ -40,12 +42,14 @@ void TraceAudit::follow(const TraceEvent& event) {
   ++position_;
   if (!playback_.prepare(event, position_ - 1)) return;
   const auto tets = playback_.tet_changes(position_);
-  if (event.kind == EventKind::replace_cavity) {
+  if (event.kind != EventKind::move_vertex) {
+    const bool is_cavity = event.kind == EventKind::replace_cavity;
     const bool at_surface = !event.created_labels.empty();
-    check_slots(tets, at_surface);
-    check_hull(tets, at_surface);
+    if (is_cavity) check_slots(tets, at_surface);
+    list_faces(tets, is_cavity);
+    if (is_cavity) check_hull(at_surface);
+    follow_tets(tets);
   }
-  if (event.kind != EventKind::move_vertex) follow_tets(tets);
   follow_vertices(playback_.vertex_changes(position_));
   playback_.make();
 }
@@ -76,12 +80,12 @@ void TraceAudit::check_slots(std::span<const TetChange> changes, bool at_surface
   }
 }
 
-/// The open faces of the tets removed and created are the same, but for those of the boundary where
-/// that may change.
-void TraceAudit::check_hull(std::span<const TetChange> changes, bool at_surface) {
-  removed_.clear();
-  created_.clear();
+/// Those of the tets removed and created.
+void TraceAudit::list_faces(std::span<const TetChange> changes, bool is_cavity) {
+  removed_.clear(changes.size());
+  created_.clear(changes.size());
   for (const TetChange& change : changes) {
+    if (!is_cavity && is_same(change.before, change.after)) continue;  // a move is undone
     for (unsigned f = 0; f < 4; ++f) {
       if (change.before[0].is_valid()) removed_.add(change.before, f);
       if (change.after[0].is_valid() && !created_.add(change.after, f)) {
@@ -90,6 +94,11 @@ void TraceAudit::check_hull(std::span<const TetChange> changes, bool at_surface)
       }
     }
   }
+}
+
+/// The open faces of the tets removed and created are the same, but for those of the boundary where
+/// that may change.
+void TraceAudit::check_hull(bool at_surface) {
   const bool fills =
       at_surface ? removed_.same_hull_inside(created_, faces_) : removed_.same_hull(created_);
   if (!fills) {
@@ -97,12 +106,16 @@ void TraceAudit::check_hull(std::span<const TetChange> changes, bool at_surface)
   }
 }
 
+/// Most faces are of tets on both sides of the change: the large table has only what differs.
 void TraceAudit::follow_tets(std::span<const TetChange> changes) {
   for (const TetChange& change : changes) {
-    if (change.before[0].is_valid()) remove_tet(change.before);
+    if (!change.before[0].is_valid()) continue;
+    for (const VertexHandle v : change.before) --tets_of_[v.index()];
   }
+  if (!faces_.exchange(removed_, created_)) fail_at(changes.back().after);
   for (const TetChange& change : changes) {
-    if (change.after[0].is_valid()) add_tet(change.after);
+    if (!change.after[0].is_valid()) continue;
+    for (const VertexHandle v : change.after) ++tets_of_[v.index()];
   }
 }
 

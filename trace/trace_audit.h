@@ -24,20 +24,22 @@ class TraceAudit {
   void begin_chunk() { playback_.forget_log(position_); }
   /// After the last event.
   const SlotMesh& mesh() const { return playback_.mesh(); }
+  /// The same, to be asked for last.
+  SlotMesh take_mesh() { return playback_.take_mesh(); }
 
  private:
   void check_names(const TraceEvent& event) const;
   void follow_tets(std::span<const TetChange> changes);
   void follow_vertices(std::span<const VertexChange> changes);
   void check_slots(std::span<const TetChange> changes, bool at_surface);
-  void check_hull(std::span<const TetChange> changes, bool at_surface);
+  void list_faces(std::span<const TetChange> changes, bool is_cavity);
+  void check_hull(bool at_surface);
   void add_tet(const TetVertices& tet);
-  void remove_tet(const TetVertices& tet);
 
   Playback playback_;
   std::uint64_t position_ = 0;
   TetFaces faces_;
-  TetFaces removed_, created_;               // of a cavity
+  TetFaces removed_, created_;               // by the last change
   std::vector<std::uint32_t> tets_of_;       // how many, by vertex slot
   std::vector<std::uint64_t> last_changed_;  // by which event, by tet slot
 };

@@ -58,12 +58,14 @@ void TraceFile::read() {
     std::optional<TraceAudit> audit;
     if (!has_start_ || standard_.is_own()) audit.emplace(mesh_);
     read_chunks(audit ? &*audit : nullptr);
+    if (audit) last_mesh_ = audit->take_mesh();
   } catch (const ByteReader::Damage& damage) {
     throw Error(fmt::format("{}: byte {}: event {}: {}", path_.string(), frames_.offset(), events_,
                             damage.what()));
   }
   close_all();
   measures_.complete();
+  if (last_mesh_) last_mesh_->set_standard(measures_.of(last_mesh_->standard()));
 }
 
 /// The content of the next frame, which lies in `frame`.

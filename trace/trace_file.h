@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <limits>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -116,6 +117,8 @@ class TraceFile {
   const TraceHeader& header() const { return header_; }
   /// Before the first event.
   const SlotMesh& initial_mesh() const { return mesh_; }
+  /// After the last event. Null: events were not followed, as the mesh was given.
+  const SlotMesh* last_mesh() const { return last_mesh_ ? &*last_mesh_ : nullptr; }
   std::uint64_t event_count() const { return events_; }
   std::size_t file_size() const { return frames_.file_size(); }
   /// One line for the user: what is damaged or missing, and how far the trace can be read; empty
@@ -171,6 +174,7 @@ class TraceFile {
   TraceHeader header_;
   bool has_start_ = false;  // mesh_ was given, by who made the events
   SlotMesh mesh_;
+  std::optional<SlotMesh> last_mesh_;
   std::uint64_t events_ = 0;
   std::string damage_;
   bool ended_ = false;

@@ -36,7 +36,7 @@ NAVIGATION: dict[str, list[str]] = {
                 "results/constraints", "results/surface", "results/solvers", "results/cores", "results/growth", "results/viewing",
                 "results/ranks", "results/files", "results/parts"],
     "reliability": ["results/coverage", "results/faults", "results/fuzzing"],
-    "reference": ["command-line", "formats", "cpp", "python-reference", "c-reference", "fortran-reference",
+    "reference": ["command-line", "formats", "cpp", "python-reference", "c-reference", "fortran-reference", "viewer-words",
                   "dependencies", "changes"],
 }
 # Pages that are whole by themselves, and are copied as they are.

@@ -53,6 +53,12 @@ void check_both_ways(const Recorded& recorded, std::size_t memory = Replay::kDef
   CHECK(differences(replay, recorded, order).empty());
   std::shuffle(order.begin(), order.end(), std::mt19937(3));
   CHECK(differences(replay, recorded, order).empty());
+  Replay still(file, memory, distance);
+  const SlotMesh& last = still.mesh_at(file.event_count());
+  CHECK(still.position() == 0);  // the file has it
+  CHECK(last.fingerprint() == recorded.truth.at(file.event_count()));
+  replay.seek(file.event_count());
+  CHECK(last.standard() == replay.mesh().standard());
 }
 
 }  // namespace

@@ -99,20 +99,36 @@ inline viewer::Image take_picture(const std::filesystem::path& folder) {
   return read_png(file);
 }
 
+inline bool is_same(const viewer::Image& a, const viewer::Image& b) {
+  return std::equal(a.pixels.begin(), a.pixels.end(), b.pixels.begin(), b.pixels.end(),
+                    [](const viewer::Colour& p, const viewer::Colour& q) {
+                      return p.red == q.red && p.green == q.green && p.blue == q.blue;
+                    });
+}
+
 /// Waits until two pictures in a row are the same.
 inline void wait_until_still() {
   viewer::Image last = take_picture(".");
   for (int i = 0; i < 100; ++i) {
     viewer::Image now = take_picture(".");
-    const bool is_same =
-        std::equal(last.pixels.begin(), last.pixels.end(), now.pixels.begin(), now.pixels.end(),
-                   [](const viewer::Colour& a, const viewer::Colour& b) {
-                     return a.red == b.red && a.green == b.green && a.blue == b.blue;
-                   });
-    if (is_same) return;
+    if (is_same(last, now)) return;
     last = std::move(now);
   }
   FAIL("the picture goes on changing");
+}
+
+/// For what a run does in its own time: waits until these rows of the picture are others than
+/// `before`, and it is still.
+inline void wait_for_change(const viewer::Image& before, int top, int bottom) {
+  const auto rows = [&](const viewer::Image& image) {
+    const auto at = [&](int y) { return image.pixels.begin() + std::ptrdiff_t{image.width} * y; };
+    return viewer::Image{image.width, bottom - top, {at(top), at(bottom)}};
+  };
+  const viewer::Image now = rows(before);
+  for (int i = 0; i < 100; ++i) {
+    if (!is_same(rows(take_picture(".")), now)) return wait_until_still();
+  }
+  FAIL("the picture does not change");
 }
 
 /// False, and a message that CTest understands, when a program of the test is not installed.

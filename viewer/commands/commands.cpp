@@ -5,6 +5,7 @@
 #include <array>
 #include <exception>
 #include <new>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -68,6 +69,18 @@ bool guarded(Document& document, const std::function<void()>& work) {
   return false;
 }
 
+void do_soon(Session& session, const std::function<void()>& work) {
+  if (session.is_drawing) {
+    session.asked.push_back(work);
+  } else {
+    guarded(session.document, work);
+  }
+}
+
+void do_asked(Session& session) {
+  for (const auto& work : std::exchange(session.asked, {})) guarded(session.document, work);
+}
+
 namespace {
 
 /// Leaves the mesh that is shown for something else, or for good.
@@ -87,25 +100,27 @@ void run_waiting(Session& session) {
 }
 
 void run_from_window(const Command& command, Session& session, const json& arguments) {
-  session.document.begin_act();
-  if (leaves_mesh(command, arguments, session.document.live) && session.document.has_unsaved()) {
-    const std::string file = arguments.empty() ? "" : arguments[0].get<std::string>();
-    session.document.waiting = WaitingCommand{std::string(command.name), file};
-    return;
-  }
-  guarded(session.document, [&] { command.run(session, arguments); });
+  do_soon(session, [&command, &session, arguments] {
+    Document& document = session.document;
+    document.begin_act();
+    if (leaves_mesh(command, arguments, document.live) && document.has_unsaved()) {
+      const std::string file = arguments.empty() ? "" : arguments[0].get<std::string>();
+      document.waiting = WaitingCommand{std::string(command.name), file};
+    } else {
+      command.run(session, arguments);
+    }
+  });
 }
 
 std::string command_reference() {
-  std::string text = "| Key | Effect |\n|---|---|\n";
+  std::string text = "| Key or mouse | Word of a script | Effect |\n|---|---|---|\n";
   for (const auto& gesture : kGestures) {
-    text += fmt::format("| {} | {} |\n", gesture.first, gesture.second);
+    text += fmt::format("| {} | | {} |\n", gesture.first, gesture.second);
   }
   for (const Command& c : commands()) {
-    if (!c.keys.empty()) text += fmt::format("| `{}` | {} |\n", c.keys, c.help);
+    const std::string key = c.keys.empty() ? "" : fmt::format(" `{}`", c.keys);
+    text += fmt::format("|{} | `{}` | {} |\n", key, c.usage, c.help);
   }
-  text += "\n| Word | Effect |\n|---|---|\n";
-  for (const Command& c : commands()) text += fmt::format("| `{}` | {} |\n", c.usage, c.help);
   return text;
 }
 

@@ -6,6 +6,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include <nlohmann/json.hpp>
 
@@ -31,6 +32,8 @@ class Host {
 struct Session {
   Document& document;
   Host& host;
+  bool is_drawing = false;  ///< the panels, which may have asked for what follows
+  std::vector<std::function<void()>> asked = {};  ///< by do_soon(), in its order
 };
 
 struct Command {
@@ -57,12 +60,18 @@ void run_waiting(Session& session);
 /// Does it. Whatever is thrown becomes the message of the document, and the result is false.
 bool guarded(Document& document, const std::function<void()>& work);
 
-/// Runs it as a menu or key does: guarded, and what would lose unsaved work waits for the user's
+/// Does it, guarded: at once, or when all panels are drawn if one of them asks. Else a mesh or trace
+/// would go from under those that are still to be drawn.
+void do_soon(Session& session, const std::function<void()>& work);
+/// What do_soon() has put off. Precondition: no panel is being drawn.
+void do_asked(Session& session);
+
+/// Runs it as a menu or key does, by do_soon(); what would lose unsaved work waits for the user's
 /// answer, see Document::waiting.
 void run_from_window(const Command& command, Session& session,
                      const nlohmann::json& arguments = nlohmann::json::array());
 
-/// Two Markdown tables: keys and mouse; words of scripts. For the manual.
+/// A Markdown table: keys and mouse, words of scripts, what they do. For the manual.
 std::string command_reference();
 
 /// What the mouse does: gesture and effect.

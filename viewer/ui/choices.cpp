@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
+#include "viewer/ui/call_row.h"
 #include "viewer/ui/dialog_buttons.h"
 
 namespace tetmend::viewer::ui {
@@ -21,8 +22,9 @@ void offer_trials(Session& session, const std::vector<VertexHandle>& part) {
   for (const OperatorInfo* info : session.document.live.registry().operators()) {
     if (vertices_of(info->target) != part.size()) continue;
     const std::string name(info->name);
-    if (entry(name))
-      guarded(session.document, [&] { session.document.try_operator({name, part, {}}); });
+    if (entry(spaced(name))) {
+      do_soon(session, [&d = session.document, name, part] { d.try_operator({name, part, {}}); });
+    }
     if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", std::string(info->help).c_str());
   }
   ImGui::EndMenu();

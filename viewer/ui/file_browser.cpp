@@ -177,7 +177,7 @@ void FileBrowser::finish(Session& session) {
     }
     if (question_ == FileQuestion::schedule) session.document.live.choose_schedule(file.string());
     folder_ = folder_of(file.string());
-    ImGui::CloseCurrentPopup();
+    is_done_ = true;
   } catch (const std::exception& error) {
     trouble_ = error.what();
   }
@@ -217,6 +217,10 @@ void FileBrowser::draw(Session& session, float scale) {
           ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoMove)) {
     return;
   }
+  if (std::exchange(is_done_, false)) {
+    ImGui::CloseCurrentPopup();
+    return ImGui::EndPopup();
+  }
   ImGui::TextUnformatted(title_of(question_));
   ImGui::TextDisabled("%s", folder_.string().c_str());
   if (question_ == FileQuestion::open) offer_lessons();
@@ -233,7 +237,7 @@ void FileBrowser::draw(Session& session, float scale) {
   if (answer == Answer::cancelled) {
     ImGui::CloseCurrentPopup();
   } else if (answer == Answer::accepted && !(typed_.empty() && marked_.empty())) {
-    finish(session);
+    do_soon(session, [this, &session] { finish(session); });
   }
   ImGui::EndPopup();
 }

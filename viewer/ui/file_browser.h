@@ -39,6 +39,7 @@ class FileBrowser {
   std::string trouble_;
   bool is_accepted_ = false;
   bool wants_focus_ = false;  // the field for the name
+  bool is_done_ = false;      // what was asked for is done
 };
 
 }  // namespace tetmend::viewer::ui

@@ -16,6 +16,7 @@
 #include "kernel/grouped.h"
 #include "viewer/commands/menu.h"
 #include "viewer/overlay.h"
+#include "viewer/ui/call_row.h"
 #include "viewer/ui/dialog_buttons.h"
 #include "viewer/ui/drawing_canvas.h"
 #include "viewer/ui/panels.h"
@@ -142,7 +143,9 @@ bool is_news(const Panel& panel, const Debugger* debugger) {
          (debugger->news == News::found && panel.draw == &draw_found_panel);
 }
 
-void list_panels(Session& session, const std::function<bool(const Panel&)>& is_wanted) {
+/// `is_event_elsewhere`: where the trace is stands below all panels.
+void list_panels(Session& session, const std::function<bool(const Panel&)>& is_wanted,
+                 bool is_event_elsewhere = false) {
   const bool has_trace = session.document.debugger() != nullptr;
   for (const Panel& panel : panels()) {
     if (!is_wanted(panel) || !is_shown(panel, session.document)) continue;
@@ -158,7 +161,8 @@ void list_panels(Session& session, const std::function<bool(const Panel&)>& is_w
     ImGui::PopID();
     if (!is_open) continue;
     ImGui::PushID(panel.title);
-    panel.draw(session);
+    const bool is_short = is_event_elsewhere && panel.draw == &draw_step_panel;
+    (is_short ? &draw_step_buttons : panel.draw)(session);
     ImGui::PopID();
     ImGui::Spacing();
     if (!comes_into_sight || session.document.debugger() == nullptr) continue;
@@ -175,7 +179,7 @@ void list_side(Session& session, Side side) {
 
 /// Panels of a trace where there is one column. Where one enters a call or leaves all, or asks for
 /// something, the tab for that comes to the front.
-void list_in_tabs(Session& session, bool enters, bool leaves) {
+void list_in_tabs(Session& session, bool enters, bool leaves, bool is_in_call) {
   if (!ImGui::BeginTabBar("##tabs")) return;
   const Debugger::News news = session.document.debugger()->news;
   enters = news == Debugger::News::history || (enters && news == Debugger::News::none);
@@ -183,7 +187,8 @@ void list_in_tabs(Session& session, bool enters, bool leaves) {
   const auto tab = [&](const char* title, bool comes, auto... is_wanted) {
     const ImGuiTabItemFlags flags = comes ? ImGuiTabItemFlags_SetSelected : 0;
     if (!ImGui::BeginTabItem(title, nullptr, flags)) return;
-    (list_panels(session, is_wanted), ...);
+    if (comes && news == Debugger::News::none) ImGui::SetScrollY(0);
+    (list_panels(session, is_wanted, is_in_call), ...);
     ImGui::EndTabItem();
   };
   const auto is_mesh = [](const Panel& panel) { return panel.subject == Subject::mesh; };
@@ -413,13 +418,14 @@ void Interface::build(Session& session) {
   ImGui::NewFrame();
   const Layout layout = lay_out(document, scale_);
   document.hovering = {};
+  session.is_drawing = true;
   ImFont* font = layout.is_teaching ? large_ : ImGui::GetFont();
   Choice choice;
   const bool is_whole = guarded(document, [&] {
     if (document.show_panels) {
       choice = menu(document);
       if (!document.has_mesh() && document.opening() == nullptr) {
-        Choice at_start = start_page_.draw(document, scale_);
+        Choice at_start = start_page_.draw(document, scale_, large_);
         if (at_start.command != nullptr) choice = std::move(at_start);
       }
       show_status(session, layout.status, scale_);
@@ -447,6 +453,8 @@ void Interface::build(Session& session) {
   ImGui::PopFont();
   document.hovered = document.hovering;
   ImGui::Render();
+  session.is_drawing = false;
+  do_asked(session);
   if (choice.command != nullptr) run_from_window(*choice.command, session, choice.arguments);
 }
 
@@ -461,6 +469,7 @@ void Interface::panels_around(Session& session, const Layout& layout) {
   if (layout.is_teaching) return teach(session, layout);
   if (begin("##left", layout.left)) {
     list_side(session, Side::left);
+    note_spare_room();
     ImGui::End();
   }
   Area right = layout.right;
@@ -486,10 +495,11 @@ void Interface::panels_around(Session& session, const Layout& layout) {
   }
   if (begin("##right", right)) {
     if (layout.is_one_column && has_trace) {
-      list_in_tabs(session, enters, leaves);
+      list_in_tabs(session, enters, leaves, is_in_call);
     } else {
       if (layout.is_one_column) list_side(session, Side::left);
       list_side(session, Side::right);
+      note_spare_room();
     }
     ImGui::End();
   }

@@ -7,9 +7,11 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
+#include "explain/call_facts.h"
 #include "explain/event_text.h"
 #include "explain/paper_lines.h"
 #include "viewer/ui/panels.h"
+#include "viewer/ui/wrapped_text.h"
 
 namespace tetmend::viewer::ui {
 
@@ -45,7 +47,7 @@ void shrink_text(const Pseudocode& code, float share) {
 
 /// `is_new`: the line is to be brought into sight.
 void show_code(const Pseudocode& code, unsigned line, bool is_new, bool is_whole) {
-  ImGui::TextWrapped("%s", code.title.data());
+  wrapped_text(code.title);
   constexpr float kFew = 3.2F;  // of the caller, where the column is wide
   const float share = begin_lines(code, is_whole ? kFew : kCallerLines);
   shrink_text(code, is_whole ? share : 1);
@@ -61,7 +63,7 @@ void show_code(const Pseudocode& code, unsigned line, bool is_new, bool is_whole
     }
     ImGui::TextDisabled("%2u", i);
     ImGui::SameLine(kNumbers * ImGui::GetFontSize());
-    ImGui::TextUnformatted(code.lines[i - 1].data());  // literals
+    indexed_text(code.lines[i - 1]);
     if (i == line && is_new) ImGui::SetScrollHereY(0.5F);
   }
   ImGui::PopStyleVar();
@@ -80,6 +82,18 @@ bool is_new_place(std::uint64_t position) {
   return (*since)++ < kLayouts;
 }
 
+/// Of an operator without an algorithm here: what it does, in one sentence.
+void tell_purpose(const Registry& registry, const Debugger& debugger) {
+  const Call& call = debugger.file().calls()[debugger.call()];
+  const std::string_view name = debugger.file().name(call.operator_name);
+  const auto operators = registry.operators();
+  const auto found = std::find_if(operators.begin(), operators.end(),
+                                  [&](const OperatorInfo* info) { return info->name == name; });
+  const std::string purpose =
+      found == operators.end() ? "an operator of a plugin" : std::string((*found)->help);
+  wrapped_text(fmt::format("{}: {}", short_name(name), purpose));
+}
+
 }  // namespace
 
 float algorithm_height(const Session& session) {
@@ -89,8 +103,11 @@ float algorithm_height(const Session& session) {
   const CodePlace here =
       stack.empty() ? pass_place(debugger.file(), stack, debugger.position())
                     : code_place(debugger.file(), stack, stack.size() - 1, debugger.position());
-  if (here.code == nullptr) {  // a line says so
-    return stack.empty() ? 0 : ImGui::GetTextLineHeight() + 2 * ImGui::GetStyle().WindowPadding.y;
+  if (here.code == nullptr) {  // a sentence says what it does
+    constexpr float kSentence = 3;
+    return stack.empty()
+               ? 0
+               : kSentence * ImGui::GetTextLineHeight() + 2 * ImGui::GetStyle().WindowPadding.y;
   }
   return kMostLines * (ImGui::GetTextLineHeight() + kGap) +
          (kCallerLines + 1) * ImGui::GetTextLineHeightWithSpacing() +
@@ -106,7 +123,7 @@ void draw_algorithm_panel(Session& session, bool is_whole) {
   const CodePlace pass = pass_place(debugger.file(), stack, debugger.position());
   const CodePlace here = stack.empty() ? pass : place_of(stack.size() - 1);
   if (here.code == nullptr) {
-    if (!stack.empty()) ImGui::TextDisabled("an operator that is not described");
+    if (!stack.empty()) tell_purpose(session.document.live.registry(), debugger);
     return;
   }
   show_code(*here.code, here.line, is_new_place(debugger.position()), is_whole);
@@ -125,7 +142,7 @@ void draw_algorithm_panel(Session& session, bool is_whole) {
   const std::string_view line = caller.code->lines[caller.line - 1];
   const std::string on =
       caller.goes_on > 0 ? fmt::format("; goes on at line {}", caller.goes_on) : "";
-  ImGui::TextWrapped("%s%s", line.data(), on.c_str());
+  wrapped_text(std::string(line.substr(line.find_first_not_of(' '))) + on);
 }
 
 }  // namespace tetmend::viewer::ui

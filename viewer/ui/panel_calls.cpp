@@ -7,21 +7,13 @@
 #include <fmt/format.h>
 
 #include "explain/outcome_look.h"
+#include "viewer/ui/call_row.h"
 #include "viewer/ui/drawing_canvas.h"
 #include "viewer/ui/panels.h"
 
 namespace tetmend::viewer::ui {
 
 namespace {
-
-/// The target without its kind, which follows from the operator.
-std::string numbers_of(const Call& call) {
-  std::string text;
-  for (const VertexHandle v : call.target()) {
-    text += fmt::format("{}{}", text.empty() ? "" : "-", v.index());
-  }
-  return text;
-}
 
 /// How the call has ended here: what is to come is not told.
 Outcome outcome_here(const Debugger& debugger, const Call& call) {
@@ -31,14 +23,6 @@ Outcome outcome_here(const Debugger& debugger, const Call& call) {
 /// Of "5 -> 4" what is so now, while the call is under way.
 std::string until_now(const std::string& text, bool is_done) {
   return is_done ? text : text.substr(0, text.find(" -> "));
-}
-
-/// The text as far as the column has room for it.
-std::string fitting(std::string text) {
-  const float room = ImGui::GetContentRegionAvail().x;
-  if (ImGui::CalcTextSize(text.c_str()).x <= room) return text;
-  while (!text.empty() && ImGui::CalcTextSize((text + "...").c_str()).x > room) text.pop_back();
-  return text + "...";
 }
 
 /// Pointed at, or its target is.
@@ -89,9 +73,8 @@ void draw_row(Session& session, const CallRow& row) {
   ImGui::SameLine(0, 0.2F * ImGui::GetFontSize());
   const std::string name =
       fmt::format("{} {} {}", call.level, short_name(debugger.file(), call), numbers_of(call));
-  if (ImGui::Selectable(
-          fitting(name).c_str(), debugger.call() == row.call,
-          ImGuiSelectableFlags_SpanAllColumns | ImGuiSelectableFlags_AllowItemOverlap)) {
+  if (fitted_row(name, debugger.call() == row.call,
+                 ImGuiSelectableFlags_SpanAllColumns | ImGuiSelectableFlags_AllowItemOverlap)) {
     run_from_window(find_command("enter"), session, {row.call});
   }
   if (ImGui::IsItemHovered()) {
@@ -169,7 +152,7 @@ void list_rows(Session& session, float height) {
 }  // namespace
 
 void draw_calls_panel(Session& session) {
-  list_rows(session, table_height());
+  list_rows(session, table_height() + spare_room());
   explain_marks();
 }
 

@@ -16,8 +16,18 @@ namespace tetmend::viewer::ui {
 
 namespace {
 
+/// Names stand left of what they name, in one column.
+void name(const char* text) {
+  constexpr float kNames = 0.36F;  // of the width
+  ImGui::AlignTextToFramePadding();
+  ImGui::TextUnformatted(text);
+  ImGui::SameLine(kNames * ImGui::GetContentRegionMax().x);
+  ImGui::SetNextItemWidth(-1);
+}
+
 void choose_colour(SceneSettings& scene, bool has_reference) {
-  if (ImGui::BeginCombo("colour", scene.colour.c_str())) {
+  name("colour");
+  if (ImGui::BeginCombo("##colour", scene.colour.c_str())) {
     if (ImGui::Selectable("region", scene.colour == "region")) scene.colour = "region";
     if (has_reference && ImGui::Selectable(kDistance, scene.colour == kDistance)) {
       scene.colour = kDistance;
@@ -31,7 +41,8 @@ void choose_colour(SceneSettings& scene, bool has_reference) {
     }
     ImGui::EndCombo();
   }
-  if (ImGui::BeginCombo("map", scene.map.c_str())) {
+  name("map");
+  if (ImGui::BeginCombo("##map", scene.map.c_str())) {
     for (const ColourMap& map : colour_maps()) {
       if (ImGui::Selectable(map.name.data(), scene.map == map.name)) scene.map = map.name;
     }
@@ -39,8 +50,10 @@ void choose_colour(SceneSettings& scene, bool has_reference) {
   }
 }
 
-void slide(const char* name, double& value, double low, double high, const char* format) {
-  ImGui::SliderScalar(name, ImGuiDataType_Double, &value, &low, &high, format);
+void slide(const char* title, double& value, double low, double high, const char* format) {
+  name(title);
+  ImGui::SliderScalar(fmt::format("##{}", title).c_str(), ImGuiDataType_Double, &value, &low, &high,
+                      format);
 }
 
 /// On without a reference, it asks for one.
@@ -71,8 +84,10 @@ void choose_goal(Document& document) {
   std::array<double, 2> angles = {now.min_angle, now.max_angle};
   const bool is_trace = document.debugger() != nullptr;
   ImGui::BeginDisabled(is_trace);
-  const bool changed = ImGui::InputScalarN("goal", ImGuiDataType_Double, angles.data(), 2, nullptr,
-                                           nullptr, "%.4g°", ImGuiInputTextFlags_EnterReturnsTrue);
+  name("goal");
+  const bool changed =
+      ImGui::InputScalarN("##goal", ImGuiDataType_Double, angles.data(), 2, nullptr, nullptr,
+                          "%.4g°", ImGuiInputTextFlags_EnterReturnsTrue);
   ImGui::EndDisabled();
   if (ImGui::IsItemHovered()) {
     ImGui::SetTooltip(
@@ -99,10 +114,10 @@ void choose_regions(const std::vector<Label>& regions, SceneSettings& scene) {
     bool shown = found == hidden.end();
     const ImVec4 tint(static_cast<float>(c.red) / 255, static_cast<float>(c.green) / 255,
                       static_cast<float>(c.blue) / 255, 1);
-    const std::string name = fmt::format("{}", label);
-    ImGui::ColorButton(name.c_str(), tint, ImGuiColorEditFlags_NoTooltip);
+    const std::string title = fmt::format("{}", label);
+    ImGui::ColorButton(title.c_str(), tint, ImGuiColorEditFlags_NoTooltip);
     ImGui::SameLine();
-    if (ImGui::Checkbox(name.c_str(), &shown)) {
+    if (ImGui::Checkbox(title.c_str(), &shown)) {
       if (shown) {
         hidden.erase(found);
       } else {
@@ -119,7 +134,6 @@ void choose_regions(const std::vector<Label>& regions, SceneSettings& scene) {
 void draw_display_panel(Session& session) {
   ViewSettings& view = session.document.view;
   SceneSettings& scene = view.scene;
-  ImGui::PushItemWidth(0.6F * ImGui::GetContentRegionAvail().x);
   choose_colour(scene, session.document.reference() != nullptr);
   choose_goal(session.document);
   ImGui::Checkbox("bad tets in red", &scene.bad);
@@ -142,15 +156,15 @@ void draw_display_panel(Session& session) {
   ImGui::Checkbox("edges", &view.edges);
   ImGui::SameLine();
   ImGui::Checkbox("constraints", &scene.constraints);
-  ImGui::SameLine();
-  ImGui::Checkbox("numbers", &view.numbers);
   constexpr int kMostLayers = 20;
-  ImGui::SliderInt("peel", &scene.peel, 0, std::max(kMostLayers, scene.peel), "%d layers");
+  name("peel");
+  ImGui::SliderInt("##peel", &scene.peel, 0, std::max(kMostLayers, scene.peel), "%d layers");
   scene.peel = std::max(scene.peel, 0);
   slide("shrink", scene.shrink, 0, 0.9, "%.2f");
   slide("ghosts", scene.ghosts, 0, 1, "%.2f");
+  ImGui::Checkbox("numbers", &view.numbers);
+  ImGui::SameLine();
   choose_reference(session);
-  ImGui::PopItemWidth();
   scene.shrink = std::clamp(scene.shrink, 0.0, 0.9);
   scene.ghosts = std::clamp(scene.ghosts, 0.0, 1.0);
   scene.reference = std::clamp(scene.reference, 0.0, 1.0);

@@ -4,6 +4,7 @@
 #include <imgui.h>
 #include <imgui_stdlib.h>
 
+#include "viewer/ui/call_row.h"
 #include "viewer/ui/drawing_canvas.h"
 #include "viewer/ui/panels.h"
 #include "viewer/ui/wrapped_text.h"
@@ -44,6 +45,13 @@ void list_parts(Session& session, const History& history) {
   if (!asked.empty()) run_from_window(find_command("history"), session, {asked});
 }
 
+/// What the mark does not tell: qualities where there are any.
+std::string ending_of(const Call& call) {
+  if (call.accepted() && call.undone) return call.verdict_in_words();
+  if (call.worst_before == 0 && call.worst_after == 0) return call.verdict_in_words();
+  return fmt::format("{:.4f} -> {:.4f}", call.worst_before, call.worst_after);
+}
+
 /// A click goes to the call.
 void list_calls(Session& session, const History& history, bool in_trials) {
   const Debugger& debugger = *session.document.debugger();
@@ -51,19 +59,21 @@ void list_calls(Session& session, const History& history, bool in_trials) {
   for (const HistoryCall& each : history.calls) {
     if (each.in_trial != in_trials) continue;
     const Call& call = debugger.file().calls()[each.call];
-    std::string text = fmt::format("{} {} {}: {}", each.call, short_name(debugger.file(), call),
-                                   format_target(call), call.verdict_in_words());
-    if (call.worst_before != 0 || call.worst_after != 0) {
-      text += fmt::format(", {:.4f} -> {:.4f}", call.worst_before, call.worst_after);
-    }
     show_mark(outcome_of(call));
     ImGui::SameLine();
     ImGui::PushID(static_cast<int>(each.call));
-    if (ImGui::Selectable(text.c_str(), debugger.call() == each.call)) chosen = each.call;
+    const std::string name = short_name(debugger.file(), call);
+    const std::string ending = ending_of(call);
+    if (fitted_row(fmt::format("{} {} {}: {}", each.call, name, numbers_of(call), ending),
+                   debugger.call() == each.call)) {
+      chosen = each.call;
+    }
     if (ImGui::IsItemHovered()) {
       session.document.hovering = session.document.pointed_call(each.call);
       const std::string reason(debugger.file().reason(call));
-      ImGui::SetTooltip("%s\n%s", text.c_str(), reason.c_str());
+      ImGui::SetTooltip("%u %s %s: %s, %s\n%s", each.call, name.c_str(),
+                        format_target(call).c_str(), call.verdict_in_words().c_str(),
+                        ending.c_str(), reason.c_str());
     }
     ImGui::PopID();
   }

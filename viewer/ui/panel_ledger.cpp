@@ -8,6 +8,7 @@
 
 #include "explain/call_facts.h"
 #include "kernel/grouped.h"
+#include "viewer/ui/call_row.h"
 #include "viewer/ui/drawing_canvas.h"
 #include "viewer/ui/panels.h"
 #include "viewer/ui/wrapped_text.h"
@@ -168,8 +169,8 @@ void show_pairs(Session& session, const OtherRun& other) {
 
 std::string missing_text(const Call& call) {
   if (call.accepted()) return {};
-  if (!call.has_qualities()) return "nothing compared";
-  return call.missing() <= 0 ? "others lacked" : fmt::format("lacked {:.4f}", call.missing());
+  if (!call.has_qualities()) return "-";
+  return call.missing() <= 0 ? "others" : fmt::format("{:.4f}", call.missing());
 }
 
 void show_found_row(Session& session, std::uint32_t number) {
@@ -180,16 +181,16 @@ void show_found_row(Session& session, std::uint32_t number) {
   show_mark(outcome_of(call));
   ImGui::SameLine();
   ImGui::PushID(static_cast<int>(number));
-  const std::string text =
-      fmt::format("{} {} {}", number, short_name(debugger.file(), call), format_target(call));
-  if (ImGui::Selectable(text.c_str(), debugger.call() == number,
-                        ImGuiSelectableFlags_SpanAllColumns)) {
+  const std::string name = short_name(debugger.file(), call);
+  if (fitted_row(fmt::format("{} {} {}", number, name, numbers_of(call)), debugger.call() == number,
+                 ImGuiSelectableFlags_SpanAllColumns)) {
     run_from_window(find_command("enter"), session, {number});
   }
   if (ImGui::IsItemHovered()) {
     session.document.hovering = session.document.pointed_call(number);
     const std::string reason(debugger.file().reason(call));
-    ImGui::SetTooltip("%s: %s\n%s", text.c_str(), call.verdict_in_words().c_str(), reason.c_str());
+    ImGui::SetTooltip("%u %s %s: %s\n%s", number, name.c_str(), format_target(call).c_str(),
+                      call.verdict_in_words().c_str(), reason.c_str());
   }
   ImGui::PopID();
   number_cell(missing_text(call));
@@ -225,8 +226,11 @@ void draw_found_panel(Session& session) {
   constexpr ImGuiTableFlags kLooks = ImGuiTableFlags_RowBg | ImGuiTableFlags_ScrollY;
   constexpr float kRows = 8;
   if (ImGui::BeginTable("##found", 2, kLooks, {0, kRows * ImGui::GetTextLineHeightWithSpacing()})) {
-    ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthStretch);
-    ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthFixed);  // as wide as what is in sight
+    ImGui::TableSetupScrollFreeze(0, 1);
+    ImGui::TableSetupColumn("call", ImGuiTableColumnFlags_WidthStretch);
+    // As wide as what is in sight: of the worst tet, or others were the reason.
+    ImGui::TableSetupColumn("quality lacking", ImGuiTableColumnFlags_WidthFixed);
+    headers_row(1);
     ImGuiListClipper clipper;
     clipper.Begin(static_cast<int>(found.calls.size()));
     while (clipper.Step()) {

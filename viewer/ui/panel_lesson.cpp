@@ -11,7 +11,7 @@ void draw_lesson_panel(Session& session) {
   const Debugger& debugger = *session.document.debugger();
   const Lesson& lesson = *debugger.lesson();
   const auto step = step_at(lesson, debugger.position());
-  ImGui::TextWrapped("%s", lesson.title.c_str());
+  wrapped_text(lesson.title);
   if (ImGui::Button("back")) run_from_window(find_command("last_lesson_step"), session);
   ImGui::SameLine();
   if (ImGui::Button("next")) run_from_window(find_command("next_lesson_step"), session);

@@ -196,7 +196,7 @@ void draw_curves(const LiveProgress& run) {
   ImGui::TextDisabled("bad tets, logarithmic: %zu, now %zu", run.before.n_bad, last.n_bad);
   draw_curve("##bad", run,
              [](const QualityIndicators& q) { return std::log1p(static_cast<double>(q.n_bad)); });
-  ImGui::TextDisabled("q_worst: %.4f, now %.4f", run.before.q_worst, last.q_worst);
+  ImGui::TextDisabled("worst quality: %.4f, now %.4f", run.before.q_worst, last.q_worst);
   draw_curve("##worst", run, [](const QualityIndicators& q) { return q.q_worst; });
 }
 

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
+#include "viewer/ui/call_row.h"
 #include "viewer/ui/panels.h"
 #include "viewer/ui/parameter_field.h"
 
@@ -53,13 +54,12 @@ void draw_parameters_panel(Session& session) {
   const auto found = std::find_if(operators.begin(), operators.end(),
                                   [&](const OperatorInfo* info) { return info->name == name; });
   if (found == operators.end()) {  // a sequence
-    ImGui::TextDisabled("%s has none of its own", name.c_str());
+    ImGui::TextDisabled("%s has none of its own", spaced(name).c_str());
     return;
   }
-  ImGui::TextDisabled("%s", name.c_str());
+  ImGui::TextDisabled("%s", spaced(name).c_str());
   const std::string_view settings = debugger.file().name(call->settings);
   const auto held = document.live.progress().held_parameters;
-  ImGui::PushItemWidth(0.4F * ImGui::GetContentRegionAvail().x);
   for (const ParameterSpec& spec : (*found)->parameters) {
     double value = value_in_settings(settings, spec.name, spec.initial);
     for (const std::string& text : held) {
@@ -73,7 +73,6 @@ void draw_parameters_panel(Session& session) {
       run_from_window(find_command("live_hold"), session, {name, std::string(spec.name), *chosen});
     }
   }
-  ImGui::PopItemWidth();
 }
 
 }  // namespace tetmend::viewer::ui

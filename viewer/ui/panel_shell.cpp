@@ -60,7 +60,7 @@ void show_table(Document& document, const ShellPicture& shell, bool is_quality) 
   if (!ImGui::BeginTable(is_quality ? "##q" : "##k", m + 1, ImGuiTableFlags_Borders)) return;
   ImGui::TableNextRow();
   ImGui::TableNextColumn();
-  ImGui::TextDisabled(is_quality ? "M_q" : "M_k");
+  indexed_text(is_quality ? "M_q" : "M_k");
   for (const VertexHandle v : shell.ring) {
     ImGui::TableNextColumn();
     ImGui::TextDisabled("%u", v.index());
@@ -94,9 +94,10 @@ void explain_tables() {
 /// Rows and columns are vertices of the ring; a cell is the pocket from its row on to its column.
 void show_tables(Document& document, const ShellPicture& shell) {
   if (shell.tables.size == 0) return;
-  if (!ImGui::TreeNodeEx("tables M_q and M_k (Algorithm 2)", ImGuiTreeNodeFlags_NoTreePushOnOpen)) {
-    return;
-  }
+  const bool is_open = ImGui::TreeNodeEx("##tables", ImGuiTreeNodeFlags_NoTreePushOnOpen);
+  ImGui::SameLine(0, 0);
+  indexed_text("tables M_q and M_k (Algorithm 2)");
+  if (!is_open) return;
   explain_tables();
   show_table(document, shell, true);
   show_table(document, shell, false);

@@ -52,7 +52,7 @@ void draw_statistics_panel(Session& session) {
                             ImGui::CalcTextSize("smallest angle").x);
     ImGui::TableSetupColumn("before");
     ImGui::TableSetupColumn("now");
-    ImGui::TableHeadersRow();
+    headers_row(1);
   }
   for (const Row& row : kRows) {
     ImGui::TableNextRow();
@@ -61,10 +61,10 @@ void draw_statistics_panel(Session& session) {
     if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", row.help);
     if (before) {
       ImGui::TableNextColumn();
-      ImGui::TextUnformatted(row.value(*before).c_str());
+      right_aligned(row.value(*before));
     }
     ImGui::TableNextColumn();
-    ImGui::TextUnformatted(row.value(document.statistics()).c_str());
+    right_aligned(row.value(document.statistics()));
   }
   ImGui::EndTable();
   for (const std::string& note : document.notes()) wrapped_text(note);

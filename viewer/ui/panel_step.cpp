@@ -23,31 +23,6 @@ void command_button(Session& session, const char* label, const char* command, bo
   }
 }
 
-void show_buttons(Session& session) {
-  const Debugger& debugger = *session.document.debugger();
-  constexpr const char* kBack[] = {"back_into", "back_over", "back_out", "run_back"};
-  constexpr const char* kOn[] = {"step_into", "step_over", "step_out", "run"};
-  constexpr const char* kNames[] = {"into", "over", "out", "run"};
-  const float column = 3.2F * ImGui::GetFontSize();
-  const auto row = [&](const char* title, const char* const* commands) {
-    ImGui::AlignTextToFramePadding();
-    ImGui::TextDisabled("%s", title);
-    ImGui::PushID(title);
-    for (int i = 0; i < 4; ++i) {
-      ImGui::SameLine(column + static_cast<float>(i) * column);
-      command_button(session, kNames[i], commands[i], false);
-    }
-    ImGui::PopID();
-  };
-  row("on", kOn);
-  row("back", kBack);
-  command_button(session, debugger.playing ? "stop" : "play", "play", false);
-  command_button(session, "slower", "slower", true);
-  command_button(session, "faster", "faster", true);
-  ImGui::SameLine();
-  ImGui::TextDisabled("%g events a second", debugger.speed);
-}
-
 /// Wraps like text; a click goes to the beginning of the call.
 void show_breadcrumb(Session& session, std::size_t most) {
   const Debugger& debugger = *session.document.debugger();
@@ -96,8 +71,33 @@ void show_end(Debugger& debugger) {
 
 }  // namespace
 
+void draw_step_buttons(Session& session) {
+  const Debugger& debugger = *session.document.debugger();
+  constexpr const char* kBack[] = {"back_into", "back_over", "back_out", "run_back"};
+  constexpr const char* kOn[] = {"step_into", "step_over", "step_out", "run"};
+  constexpr const char* kNames[] = {"into", "over", "out", "run"};
+  const float column = 3.2F * ImGui::GetFontSize();
+  const auto row = [&](const char* title, const char* const* commands) {
+    ImGui::AlignTextToFramePadding();
+    ImGui::TextDisabled("%s", title);
+    ImGui::PushID(title);
+    for (int i = 0; i < 4; ++i) {
+      ImGui::SameLine(column + static_cast<float>(i) * column);
+      command_button(session, kNames[i], commands[i], false);
+    }
+    ImGui::PopID();
+  };
+  row("on", kOn);
+  row("back", kBack);
+  command_button(session, debugger.playing ? "stop" : "play", "play", false);
+  command_button(session, "slower", "slower", true);
+  command_button(session, "faster", "faster", true);
+  ImGui::SameLine();
+  ImGui::TextDisabled("%g events a second", debugger.speed);
+}
+
 void draw_step_panel(Session& session) {
-  show_buttons(session);
+  draw_step_buttons(session);
   ImGui::Separator();
   draw_stack(session);
   draw_last_event(session);

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
+#include "viewer/ui/call_row.h"
 #include "viewer/ui/panels.h"
 #include "viewer/ui/wrapped_text.h"
 
@@ -14,8 +15,8 @@ namespace tetmend::viewer::ui {
 void draw_worst_panel(Session& session) {
   Document& document = session.document;
   constexpr ImGuiTableFlags kLooks = ImGuiTableFlags_RowBg | ImGuiTableFlags_ScrollY;
-  constexpr float kRows = 10.2F;  // always as many, so that no row moves away from the mouse
-  const float height = kRows * ImGui::GetTextLineHeightWithSpacing();
+  constexpr float kRows = 10.2F;  // and more where the column would be empty
+  const float height = kRows * ImGui::GetTextLineHeightWithSpacing() + spare_room();
   if (!ImGui::BeginTable("##worst", 3, kLooks, {0, height})) return;
   ImGui::TableSetupScrollFreeze(0, 1);
   // As wide as the longest number needs.

@@ -44,6 +44,8 @@ void draw_parameters_panel(Session& session);
 void draw_calls_panel(Session& session);
 void draw_breakpoints_panel(Session& session);
 void draw_step_panel(Session& session);
+/// Its buttons alone, where draw_last_event() stands elsewhere.
+void draw_step_buttons(Session& session);
 /// The algorithm that the call at hand follows, with its line in sight. Fills the current window.
 /// `is_whole`: its lines are as small as they need to be seen all.
 void draw_algorithm_panel(Session& session, bool is_whole = false);

@@ -7,12 +7,20 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
+#include "viewer/ui/call_row.h"
+
 namespace tetmend::viewer::ui {
 
 namespace {
 
+/// The name stands left of the field, with spaces; scripts and schedules have low lines.
 std::optional<double> edit(const ParameterSpec& spec, double value) {
-  const std::string name(spec.name);
+  constexpr float kNames = 0.5F;  // of the width
+  ImGui::AlignTextToFramePadding();
+  ImGui::TextUnformatted(spaced(spec.name).c_str());
+  ImGui::SameLine(kNames * ImGui::GetContentRegionMax().x);
+  ImGui::SetNextItemWidth(-1);
+  const std::string name = "##" + std::string(spec.name);
   if (spec.kind == ParameterSpec::Kind::flag) {
     bool on = value != 0;
     if (!ImGui::Checkbox(name.c_str(), &on)) return std::nullopt;
@@ -38,8 +46,8 @@ std::optional<double> edit(const ParameterSpec& spec, double value) {
 std::optional<double> edit_value(const ParameterSpec& spec, double value) {
   const auto chosen = edit(spec, value);
   if (ImGui::IsItemHovered()) {
-    ImGui::SetTooltip("%s", fmt::format("{}\n{:g} to {:g}; default {:g}", spec.help, spec.low,
-                                        spec.high, spec.initial)
+    ImGui::SetTooltip("%s", fmt::format("{}: {}\n{:g} to {:g}; default {:g}", spec.name, spec.help,
+                                        spec.low, spec.high, spec.initial)
                                 .c_str());
   }
   if (!chosen) return std::nullopt;

@@ -12,6 +12,7 @@
 #include "kernel/formats/tet_mesh_io.h"
 #include "kernel/tet_mesh.h"
 #include "viewer/live/program_version.h"
+#include "viewer/ui/wrapped_text.h"
 
 namespace tetmend::viewer::ui {
 
@@ -94,11 +95,10 @@ bool StartPage::draw_lesson(const LessonCard& lesson, const ImVec2& size) {
   lesson.picture.draw({corner.x + pad, corner.y + pad}, {side, side});
   const float left = corner.x + side + 3 * pad;
   const float room = size.x - side - 4 * pad;
-  const ImVec2 text = ImGui::CalcTextSize(lesson.title.c_str(), nullptr, false, room);
-  ImGui::GetWindowDrawList()->AddText(ImGui::GetFont(), ImGui::GetFontSize(),
-                                      {left, corner.y + std::max(pad, (size.y - text.y) / 2)},
-                                      ImGui::GetColorU32(ImGuiCol_Text), lesson.title.c_str(),
-                                      nullptr, room);
+  const std::string title = in_lines(lesson.title, room);
+  const float height = ImGui::CalcTextSize(title.c_str()).y;
+  draw_indexed(*ImGui::GetWindowDrawList(), {left, corner.y + std::max(pad, (size.y - height) / 2)},
+               ImGui::GetColorU32(ImGuiCol_Text), title);
   return is_chosen;
 }
 
@@ -134,7 +134,7 @@ Choice StartPage::draw_recent(const Document& document) {
   return choice;
 }
 
-Choice StartPage::draw(const Document& document, float scale) {
+Choice StartPage::draw(const Document& document, float scale, ImFont* large) {
   constexpr float kWidth = 640;
   constexpr float kLeastForPicture = 620;
   constexpr float kPictureHeight = 160;
@@ -146,9 +146,9 @@ Choice StartPage::draw(const Document& document, float scale) {
   ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 1);
   ImGui::Begin("##start", nullptr, kPage | ImGuiWindowFlags_AlwaysAutoResize);
   const float inside = ImGui::GetContentRegionAvail().x;
-  ImGui::SetWindowFontScale(1.6F);
+  ImGui::PushFont(large);
   ImGui::Text("tetmend %s", std::string(program_version()).c_str());
-  ImGui::SetWindowFontScale(1);
+  ImGui::PopFont();
   ImGui::TextDisabled("tetrahedral meshes, their bad tets, and runs that mend them");
   if (!picture_.is_empty() && window.y >= kLeastForPicture * scale) {
     const ImVec2 size = {inside, kPictureHeight * scale};

@@ -26,7 +26,8 @@ Choice list_lessons(bool (*entry)(const char* title));
 
 class StartPage {
  public:
-  Choice draw(const Document& document, float scale);
+  /// @param large font of the title
+  Choice draw(const Document& document, float scale, ImFont* large);
 
  private:
   struct LessonCard {

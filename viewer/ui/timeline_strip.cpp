@@ -134,7 +134,7 @@ void draw_timeline(Session& session, const Band& band) {
   seek_by_mouse(session, "##timeline", band);
   if (ImGui::IsItemHovered() && !ImGui::IsItemActive()) {
     const auto& s = debugger.timeline().at(band.position(ImGui::GetIO().MousePos.x));
-    ImGui::SetTooltip("event %llu: %zu bad tets, q_worst %.4f",
+    ImGui::SetTooltip("event %llu: %zu bad tets, worst quality %.4f",
                       static_cast<unsigned long long>(s.position), s.n_bad, s.q_worst);
   }
 }
@@ -284,8 +284,8 @@ void draw_legend(const Debugger& debugger, const CallWindow& window) {
   const auto& s = debugger.timeline().at(debugger.position());
   const std::string event = fmt::format("event {}", grouped(debugger.position()));
   const std::string all = fmt::format(" of {}", grouped(debugger.end()));
-  const std::string bad = fmt::format("  n_bad {}", grouped(s.n_bad));
-  const std::string worst = fmt::format("  q_worst {:.4f}", s.q_worst);
+  const std::string bad = fmt::format("  bad tets {}", grouped(s.n_bad));
+  const std::string worst = fmt::format("  worst quality {:.4f}", s.q_worst);
   const float gaps = 2 * ImGui::GetStyle().ItemSpacing.x;
   const bool is_wide = ImGui::CalcTextSize((event + all + bad + worst).c_str()).x + gaps <
                        ImGui::GetContentRegionAvail().x;

@@ -17,7 +17,7 @@ void go_on_after_saving(Session& session) {
   if (session.document.has_unsaved()) {
     session.document.waiting.reset();
   } else {
-    run_waiting(session);
+    do_soon(session, [&session] { run_waiting(session); });
   }
 }
 
@@ -41,7 +41,7 @@ void ask(Session& session) {
   if (answer == Answer::none) return;
   ImGui::CloseCurrentPopup();
   if (answer == Answer::accepted) {
-    run_waiting(session);
+    do_soon(session, [&session] { run_waiting(session); });
   } else {
     document.waiting.reset();
   }

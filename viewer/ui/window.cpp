@@ -170,8 +170,9 @@ class Window : public Host {
       if (input.is_button) lay_out();  // for the place of the mouse
       const bool is_for_panels = input.is_button || panels_take_keys();
       guarded(document_, input.deliver);
-      if (document_.question != FileQuestion::none) settle();
       if (is_for_panels) lay_out();
+      // The next key may be the answer, however soon it comes.
+      if (document_.question != FileQuestion::none || document_.waiting) settle();
     }
   }
 

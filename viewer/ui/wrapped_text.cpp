@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cfloat>
 #include <charconv>
 #include <string>
 
@@ -13,6 +14,27 @@ namespace tetmend::viewer::ui {
 namespace {
 
 constexpr std::string_view kCall = "call ";
+
+bool is_of_word(char c) {
+  return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_';
+}
+
+/// At text[i]: one letter, a low line, one letter or digit, and no more of a word on either side.
+bool has_index(std::string_view text, std::size_t i) {
+  constexpr std::size_t kLength = 3;
+  if (i + kLength > text.size() || text[i + 1] != '_') return false;
+  if (std::isalpha(static_cast<unsigned char>(text[i])) == 0) return false;
+  if (text[i + 2] == '_' || !is_of_word(text[i + 2])) return false;
+  const bool begins = i == 0 || !is_of_word(text[i - 1]);
+  return begins && (i + kLength == text.size() || !is_of_word(text[i + kLength]));
+}
+
+/// Where the next letter with an index stands, or the end.
+std::size_t next_index(std::string_view text) {
+  std::size_t i = 0;
+  while (i < text.size() && !has_index(text, i)) ++i;
+  return i;
+}
 
 /// At the beginning of a text: "call 17".
 std::string_view call_in_front(std::string_view text) {
@@ -39,6 +61,42 @@ bool show_call_link(const ImVec2& at, std::string_view word) {
 
 }  // namespace
 
+void draw_indexed(ImDrawList& list, ImVec2 at, ImU32 colour, std::string_view text) {
+  constexpr float kSmall = 0.72F;
+  constexpr float kLow = 0.36F;
+  const ImFont* font = ImGui::GetFont();
+  const float large = ImGui::GetFontSize();
+  const float left = at.x;
+  const auto draw = [&](std::string_view part, float size, float y) {
+    const char* end = part.data() + part.size();
+    list.AddText(font, size, {at.x, y}, colour, part.data(), end);
+    at.x += font->CalcTextSizeA(size, FLT_MAX, 0, part.data(), end).x;
+  };
+  while (!text.empty()) {
+    const std::size_t letter = next_index(text);
+    const std::size_t line = text.find('\n');
+    const std::size_t end = std::min({letter + 1, line, text.size()});
+    draw(text.substr(0, end), large, at.y);
+    if (line <= letter && line < text.size()) {
+      at = {left, at.y + ImGui::GetTextLineHeight()};
+      text.remove_prefix(line + 1);
+    } else if (letter < text.size()) {
+      draw(text.substr(letter + 2, 1), kSmall * large, at.y + kLow * large);
+      text.remove_prefix(letter + 3);
+    } else {
+      return;
+    }
+  }
+}
+
+void indexed_text(std::string_view text) {
+  const char* end = text.data() + text.size();
+  if (next_index(text) == text.size()) return ImGui::TextUnformatted(text.data(), end);
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  ImGui::Dummy(ImGui::CalcTextSize(text.data(), end));  // a little wider than it is drawn
+  draw_indexed(*ImGui::GetWindowDrawList(), at, ImGui::GetColorU32(ImGuiCol_Text), text);
+}
+
 std::string in_lines(std::string_view text, float width) {
   std::string lines;
   std::size_t line = 0;  // where it begins in `lines`
@@ -57,7 +115,7 @@ std::string in_lines(std::string_view text, float width) {
 }
 
 void wrapped_text(std::string_view text) {
-  ImGui::TextUnformatted(in_lines(text, ImGui::GetContentRegionAvail().x).c_str());
+  indexed_text(in_lines(text, ImGui::GetContentRegionAvail().x));
 }
 
 CallsInText wrapped_text_with_calls(std::string_view text) {

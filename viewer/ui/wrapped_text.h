@@ -7,11 +7,17 @@
 #include <string>
 #include <string_view>
 
+#include <imgui.h>
+
 namespace tetmend::viewer::ui {
 
 /// The text with line breaks, none of them inside a number or the name of a call: lines are at most so
 /// wide, but for words that are wider.
 std::string in_lines(std::string_view text, float width);
+/// Like ImGui::TextUnformatted, but "M_q" and "p_i" have their index small and low, as in the paper.
+void indexed_text(std::string_view text);
+/// The same at a place of the screen.
+void draw_indexed(ImDrawList& list, ImVec2 at, ImU32 colour, std::string_view text);
 /// Like ImGui::TextWrapped, but breaks lines at spaces only: never inside a number.
 void wrapped_text(std::string_view text);
 

@@ -167,7 +167,7 @@ function showTables(call, filled, isFilling) {
       cell.className = classes.filter(Boolean).join(" ");
       return cell;
     })));
-    return [make("caption", {}, caption), make("thead", {}, head), make("tbody", {}, ...rows)];
+    return [make("caption", {}, ...withIndices(caption)), make("thead", {}, head), make("tbody", {}, ...rows)];
   };
   byId("table-q").replaceChildren(...table("M_q: quality of the pocket", (i, j, classes) => {
     const q = tableQuality(shell, i, j);
@@ -179,7 +179,7 @@ function showTables(call, filled, isFilling) {
     const k = tableApex(shell, i, j);
     return k < shell.ring.length ? `${shell.ring[k]}` : "\u2013";
   }));
-  byId("cell-text").textContent = tableText(shell, filled, here, isFilling);
+  byId("cell-text").replaceChildren(...withIndices(tableText(shell, filled, here, isFilling)));
   const code = recording.codes[TABLE_CODE];
   byId("fill-code").hidden = !isFilling;
   if (isFilling) listLines(byId("fill-code"), code.lines, here ? [12, 13, 14] : [1]);
@@ -200,7 +200,7 @@ function tableText(shell, filled, here, isFilling) {
 // --- the algorithm ---
 
 function listLines(list, lines, here) {
-  list.replaceChildren(...lines.map((text, n) => make("li", here.includes(n + 1) ? {class: "here", "aria-current": "step"} : {}, text)));
+  list.replaceChildren(...lines.map((text, n) => make("li", here.includes(n + 1) ? {class: "here", "aria-current": "step"} : {}, ...withIndices(text))));
 }
 
 function showCode(step) {

@@ -30,9 +30,9 @@ TEST_CASE("names and keys of commands are unique, and what has a key is in a men
 }
 
 TEST_CASE("the manual has the keys and words of the program") {
-  const std::string manual = test::read_text(TETMEND_SOURCE_DIR "/docs/viewer.md");
+  const std::string manual = test::read_text(TETMEND_SOURCE_DIR "/docs/viewer-words.md");
   CHECK_MESSAGE(manual.find(command_reference()) != std::string::npos,
-                "put the output of tetmend-view --keys into docs/viewer.md");
+                "put the output of tetmend-view --keys into docs/viewer-words.md");
 }
 
 TEST_CASE("a copied view can be pasted") {

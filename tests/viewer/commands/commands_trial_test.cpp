@@ -139,6 +139,23 @@ TEST_CASE("a trial that cannot be is refused in words, and nothing changes") {
   CHECK_THROWS_WITH_AS(s.run("undo"), doctest::Contains("no operator was tried"), Error);
 }
 
+TEST_CASE("what a panel asks for while panels are drawn is done when all are drawn, in its order") {
+  TestSession s(sheet());
+  REQUIRE(try_until_accepted(s));
+  s.session.is_drawing = true;
+  run_from_window(find_command("undo"), s.session);
+  run_from_window(find_command("undo"), s.session);
+  CHECK(s.document.trial() != nullptr);
+  CHECK(s.document.debugger() != nullptr);
+  s.session.is_drawing = false;
+  do_asked(s.session);
+  CHECK(s.document.trial() == nullptr);
+  CHECK(s.document.message.text == "undo: no operator was tried");  // what the second has said
+  s.document.message = {};
+  do_asked(s.session);  // nothing is done twice
+  CHECK(s.document.message.text.empty());
+}
+
 TEST_CASE("what would lose unsaved work waits for an answer in the window, not in a script") {
   TestSession s(sheet());
   REQUIRE(try_until_accepted(s));

@@ -131,6 +131,18 @@ TEST_CASE("on a screen of 3840 x 2160 with text twice as large the mouse hits wh
   CHECK(state["trace"]["position"] == 4);
 }
 
+TEST_CASE("a mesh is opened by the dialog while a lesson is shown") {
+  if (!can_test_window()) return;
+  Viewer viewer(kLesson, "1280x800");
+  wait_until_still();
+  type("key ctrl+o type " TETMEND_SOURCE_DIR "/assets/meshes/sheet.mesh");
+  type("key Return");
+  wait_until_still();
+  const auto state = viewer.quit();
+  CHECK(state["trace"].is_null());
+  CHECK(state["tets"] == 3327);
+}
+
 TEST_CASE("a right click goes to what the mouse is on, or asks for its history") {
   if (!can_test_window()) return;
   SUBCASE("to the call of a bar of the icicles") {

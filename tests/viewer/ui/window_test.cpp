@@ -146,12 +146,16 @@ TEST_CASE("a long error is read whole over the picture, and is gone after the ne
   Viewer viewer(trace.path(), "1280x800");
   wait_until_still();
   const auto before = reds_on_screen();
+  const auto wait_for_reds = [&](const auto& is_wanted) {
+    auto reds = reds_on_screen();
+    for (int i = 0; i < 100 && !is_wanted(reds); ++i) reds = reds_on_screen();
+    return reds;
+  };
   type("key ctrl+v");  // what is on the clipboard is no view
-  type("sleep 0.5");
-  const auto said = reds_on_screen();
+  const auto said = wait_for_reds([](const auto& reds) { return reds.second > 0; });
   CHECK(said.second > 0);
   CHECK(said.first[0] < 60);  // at the top of the picture
-  type("key e sleep 0.5");
-  CHECK(reds_on_screen() == before);
+  type("key e");
+  CHECK(wait_for_reds([&](const auto& reds) { return reds == before; }) == before);
   CHECK(viewer.quit()["message"].get<std::string>().find("clipboard") == std::string::npos);
 }

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+#include "viewer/ui/call_row.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+#include <imgui_internal.h>
+
+namespace tetmend::viewer::ui {
+
+std::string numbers_of(const Call& call) {
+  std::string text;
+  for (const VertexHandle v : call.target()) {
+    text += fmt::format("{}{}", text.empty() ? "" : "-", v.index());
+  }
+  return text;
+}
+
+std::string spaced(std::string_view name) {
+  std::string text(name);
+  std::replace(text.begin(), text.end(), '_', ' ');
+  return text;
+}
+
+bool fitted_row(const std::string& text, bool is_selected, ImGuiSelectableFlags flags) {
+  constexpr float kSmallest = 0.8F;
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  const float room = ImGui::GetContentRegionAvail().x;
+  const bool is_clicked =
+      ImGui::Selectable(("##" + text).c_str(), is_selected, flags, {0, ImGui::GetTextLineHeight()});
+  const auto width = [](const std::string& shown) { return ImGui::CalcTextSize(shown.c_str()).x; };
+  const float share = std::clamp(room / std::max(width(text), 1.0F), kSmallest, 1.0F);
+  std::string shown = text;
+  for (std::size_t cut = text.size(); share * width(shown) > room && cut > 0;) {
+    shown = text.substr(0, --cut) + "...";
+  }
+  const float size = share * ImGui::GetFontSize();
+  ImGui::GetWindowDrawList()->AddText(ImGui::GetFont(), size,
+                                      {at.x, at.y + (ImGui::GetFontSize() - size) / 2},
+                                      ImGui::GetColorU32(ImGuiCol_Text), shown.c_str());
+  return is_clicked;
+}
+
+namespace {
+
+/// Of the column, from within any of its panels.
+float* spare_of_column() {
+  return ImGui::GetStateStorage()->GetFloatRef(ImHashStr("##spare"), 0);
+}
+
+}  // namespace
+
+float spare_room() {
+  return *spare_of_column();
+}
+
+void note_spare_room() {
+  float* spare = spare_of_column();
+  *spare =
+      std::max(*spare + ImGui::GetContentRegionAvail().y - ImGui::GetStyle().ItemSpacing.y, 0.0F);
+}
+
+}  // namespace tetmend::viewer::ui

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+// Rows of lists that name calls, and columns that use what room there is.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include <imgui.h>
+
+#include "trace/trace_file.h"
+
+namespace tetmend::viewer::ui {
+
+/// The target without its kind, which follows from the operator: "3-17".
+std::string numbers_of(const Call& call);
+/// "edge_removal" as "edge removal".
+std::string spaced(std::string_view name);
+
+/// Like ImGui::Selectable, with `text` as its name. Text that is too wide is smaller, and what is too
+/// wide still ends in dots.
+bool fitted_row(const std::string& text, bool is_selected, ImGuiSelectableFlags flags = 0);
+
+/// What the current column has left below its last panel: for the one list that takes it.
+float spare_room();
+/// At the end of a column.
+void note_spare_room();
+
+}  // namespace tetmend::viewer::ui
