@@ -62,8 +62,8 @@ struct History {
 
 /// The history of what was there last.
 /// @throws Error when nothing of the kind was there for good.
-/// Cost: one reading of the trace, a fraction of a microsecond an event, a pass over the tets, and of
-/// what is gone a replay to when it was there last. Leaves the replay somewhere. Precondition: `replay` is of `file`.
+/// Cost: one reading of the trace, and of what is gone a replay to when it was there last. Leaves the
+/// replay somewhere. Precondition: `replay` is of `file`.
 History history_of(const TraceFile& file, Replay& replay, const HistorySubject& subject);
 
 /// What people write: "tet:17", "tet:worst", "tet:3,5,8,9" (its vertices), "edge:3,5", "face:3,5,8",

@@ -85,7 +85,9 @@ TEST_CASE("an accepted transformation ends on the line that replaces the tets") 
       CHECK(place.line == 8);
       ++seen;
     }
-    if (call.algorithm == Algorithm::other) CHECK(place.code == nullptr);
+    if (call.algorithm == Algorithm::other) {
+      CHECK((place.code != nullptr) == (file.name(call.operator_name) == "mean_smoothing"));
+    }
     if (call.algorithm == Algorithm::smoothing) {
       REQUIRE(place.code != nullptr);
       CHECK(place.line == (call.accepted() ? 7U : call.candidate_found ? 6U : 5U));
@@ -154,6 +156,26 @@ TEST_CASE("a sequence opens, goes on with the other operators, and keeps or undo
   for (const unsigned line : {1U, 4U, 6U}) CHECK(lines[line] > 0);
   CHECK(lines[2] + lines[7] > 0);
   CHECK(joint > 0);
+}
+
+TEST_CASE("mean smoothing ends where it keeps a place, has found none, or has tried all") {
+  const test::TempFolder folder;
+  TetMesh mesh(test::delaunay_ball(120, 3));
+  test::record(mesh, folder / "run.trace", {}, {}, Schedule::builtin("polish"));
+  const TraceFile file(folder / "run.trace");
+  std::map<unsigned, unsigned> ends;
+  for (std::uint32_t k = 0; k < file.calls().size(); ++k) {
+    const Call& call = file.calls()[k];
+    if (file.name(call.operator_name) != "mean_smoothing") continue;
+    const auto stack = call_stack(file, call.events.end);
+    const CodePlace place = code_place(file, stack, stack.size() - 1, call.events.end);
+    REQUIRE(place.code != nullptr);
+    CHECK(place.code->title == "Mean smoothing of vertex v");
+    CHECK(place.line == (call.accepted() ? 5 : call.candidate_found ? 4 : 2));
+    ++ends[place.line];
+  }
+  CHECK(ends[5] > 0);
+  CHECK(ends[2] + ends[4] > 0);
 }
 
 TEST_CASE("the algorithms have as many lines as in the paper") {
