@@ -64,8 +64,8 @@ class Finder {
     place_.resize(mesh_.vertex_slots());
     std::size_t size = 64;
     while (size < 2 * vertices_.size()) size *= 2;
-    constexpr std::uint32_t kNone = UINT32_MAX;
-    std::vector<std::uint32_t> table(size, kNone);
+    constexpr std::uint32_t kEmpty = UINT32_MAX;
+    std::vector<std::uint32_t> table(size, kEmpty);
     for (const std::uint32_t v : vertices_) {
       std::uint64_t hash = 0;
       for (int axis = 0; axis < 3; ++axis) {  // 0 and -0 are the same
@@ -73,8 +73,8 @@ class Finder {
         hash ^= hash >> 32;
       }
       std::size_t at = hash & (size - 1);
-      while (table[at] != kNone && point(table[at]) != point(v)) at = (at + 1) & (size - 1);
-      if (table[at] == kNone) {
+      while (table[at] != kEmpty && point(table[at]) != point(v)) at = (at + 1) & (size - 1);
+      if (table[at] == kEmpty) {
         table[at] = v;
         ++places_;
       }
