@@ -7,7 +7,7 @@
 
 #include <imgui.h>
 
-#include "trace/trace_file.h"
+#include "explain/event_text.h"
 
 namespace tetmend::viewer::ui {
 
