@@ -62,6 +62,7 @@ for (const [name, selector] of Object.entries(panels)) {
   isInside(card, room, name);
   for (const e of [card, ...card.querySelectorAll("*")]) {
     if (e.closest("#names") || (e !== e.closest("svg") && e.closest("svg")) || !isSeen(e)) continue;
+    if (e.matches(".index i")) continue;  // the stroke of M_q, which is there to be copied, not to be seen
     isInside(e, box(card), `${name} ${e.tagName} ${e.textContent.slice(0, 20)}`);
     if (e.childElementCount === 0 && e.textContent.trim() && parseFloat(getComputedStyle(e).fontSize) < 8.5) bad.push(`${name}: text of ${getComputedStyle(e).fontSize}`);
   }
