@@ -162,16 +162,20 @@ void add_convert(CLI::App& app, Invocation& invocation) {
   const auto options = std::make_shared<ConvertOptions>();
   CLI::App* command = app.add_subcommand("convert", "Write a mesh in another file format");
   command->add_option("IN", options->input, "Mesh to read")->required()->type_name("");
-  command->add_option("OUT", options->output, "File to write; with --to another mesh to read")
-      ->type_name("");
-  command->add_option("-o,--output", options->output, "The same as OUT")->type_name("OUT");
+  CLI::Option* const out =
+      command->add_option("OUT", options->output, "File to write; with --to another mesh to read")
+          ->type_name("");
+  CLI::Option* const output =
+      command->add_option("-o,--output", options->output, "The same as OUT")->type_name("OUT");
+  output->excludes(out);
   command->add_option("MORE", options->more, "With --to: more meshes to read")->type_name("");
   command
       ->add_option(
           "--to", options->extension,
           "Read all that is named, and write each with this extension, such as vtu, beside "
           "it")
-      ->type_name("EXT");
+      ->type_name("EXT")
+      ->excludes(output);
   command
       ->add_option("--into", options->folder,
                    "With --to: folder for what is written; it is\nmade where there is none")

@@ -10,6 +10,7 @@
 #include "kernel/formats/included_path.h"
 #include "kernel/formats/nastran.h"
 #include "kernel/formats/nastran_numbers.h"
+#include "kernel/grouped.h"
 
 namespace tetmend::formats {
 
@@ -49,7 +50,7 @@ FormNotes nastran_form(const MeshData& mesh, std::string_view form) {
     if (coordinates > 0) {
       said.lost.push_back(
           fmt::format("{} coordinates are rounded to {} characters, which is what solvers read",
-                      coordinates, kNastranRoom));
+                      grouped(coordinates), kNastranRoom));
     }
   } else if (!form.empty()) {
     const std::size_t free_points = form == kNastranFree ? points : long_points;
@@ -57,13 +58,13 @@ FormNotes nastran_form(const MeshData& mesh, std::string_view form) {
       said.remarks.push_back(fmt::format(
           "{} points need more than {} characters for a coordinate: solvers round free fields to "
           "as many, variant '{}' keeps {}",
-          free_points, kNastranShortRoom, kNastranRounded, kNastranRoom));
+          grouped(free_points), kNastranShortRoom, kNastranRounded, kNastranRoom));
     }
   } else if (long_points > 0) {
     said.remarks.push_back(fmt::format(
         "{} points need more than {} characters for a coordinate: of such files meshio reads "
         "variant '{}', which has all digits, and '{}'",
-        long_points, kNastranRoom, kNastranFree, kNastranRounded));
+        grouped(long_points), kNastranRoom, kNastranFree, kNastranRounded));
   }
   return said;
 }

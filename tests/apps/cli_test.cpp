@@ -150,6 +150,7 @@ TEST_CASE("wrong usage gives one line on stderr and status 2") {
       {"improve", mesh, "-o", (folder / "out.stl").string()},
       {"quality"},
       {"quality", mesh, mesh, "--list", "2"},
+      {"convert", mesh, (folder / "a.vtk").string(), "-o", (folder / "b.vtk").string()},
       {"quality", mesh, mesh, "--measure", "radius_ratio"},
       {"quality", mesh, "--measure", "beauty"},
       {"convert", mesh},
