@@ -20,63 +20,31 @@ class TetFaces {
  public:
   TetFaces() : salt_((std::uint64_t{std::random_device()()} << 32) | std::random_device()()) {}
 
-  /// Room for the faces of so many tets.
-  void reserve(std::size_t tets) {
-    const std::size_t size = size_for(tets);
+  /// Room for so many faces.
+  void reserve(std::size_t faces) {
+    const std::size_t size = size_for(faces);
     if (size > entries_.size()) rehash(size);
   }
   /// False if the face has a tet on this side already.
   bool add(const TetVertices& tet, unsigned face) {
     const auto [key, side] = key_of(tet, face);
-    return put(key, 0, side);
+    Entry& entry = entry_of(key);
+    const bool is_new = (entry.sides & side) == 0;
+    entry.sides |= side;
+    return is_new;
   }
-  /// As if all faces of `gone`, which were added, were removed and then those of `come` added; but
-  /// only what differs is touched. False if one of `come` has a tet on its side already.
-  bool exchange(const TetFaces& gone, const TetFaces& come) {
-    for (const Entry& entry : gone.entries_) {
-      if (!entry.is_there()) continue;
-      const std::uint32_t sides = come.bits_of(entry.key);
-      if (sides != entry.sides && !put(entry.key, entry.sides, sides)) return false;
-    }
-    return std::all_of(come.entries_.begin(), come.entries_.end(), [&](const Entry& entry) {
-      return !entry.is_there() || gone.bits_of(entry.key) != 0 || put(entry.key, 0, entry.sides);
-    });
-  }
-  /// To take the faces of so many tets. What follows costs as much as these, and what one large
-  /// cavity took is given back.
-  void clear(std::size_t tets = 0) {
+  /// To take so many faces. What follows costs as much as these, and what one large cavity took is
+  /// given back.
+  void clear(std::size_t faces) {
     constexpr std::size_t kKept = 1024;
-    const std::size_t size = size_for(tets);
+    const std::size_t size = size_for(faces);
     if (entries_.capacity() > std::max(kKept, size)) entries_ = {};
     entries_.assign(size, Entry());
     used_ = 0;
   }
-  /// The same faces have a tet on one side only, and that the same.
-  bool same_hull(const TetFaces& other) const {
-    std::size_t open = 0;
-    for (const Entry& entry : entries_) {
-      if (!entry.is_open()) continue;
-      ++open;
-      if (other.sides_of(entry.key) != entry.sides) return false;
-    }
-    return open == other.count_open();
-  }
-  /// The same, but faces may come and go where `all`, which holds the faces of this as well, has no
-  /// tet on their other side.
-  bool same_hull_inside(const TetFaces& other, const TetFaces& all) const {
-    const auto fits = [](const Entry& entry, const TetFaces& there, std::uint32_t rest) {
-      return !entry.is_open() || there.sides_of(entry.key) == entry.sides || rest == 0;
-    };
-    const auto rest = [&](const Entry& entry) {  // of the other tets
-      return all.bits_of(entry.key) & ~bits_of(entry.key);
-    };
-    return std::all_of(entries_.begin(), entries_.end(),
-                       [&](const Entry& entry) { return fits(entry, other, rest(entry)); }) &&
-           std::all_of(other.entries_.begin(), other.entries_.end(),
-                       [&](const Entry& entry) { return fits(entry, *this, rest(entry)); });
-  }
 
  private:
+  friend class EditedFaces;
   using Key = std::array<std::uint32_t, 3>;  // sorted
   static constexpr std::size_t kLeast = 16;
   static constexpr std::uint32_t kFree = 4;
@@ -84,13 +52,12 @@ class TetFaces {
   struct Entry {
     Key key{};
     std::uint32_t sides = kFree;  // bits: a tet that lists it evenly, one that does not
-    bool is_open() const { return sides == 1 || sides == 2; }
     bool is_there() const { return sides != 0 && sides != kFree; }
   };
 
-  static std::size_t size_for(std::size_t tets) {
+  static std::size_t size_for(std::size_t faces) {
     std::size_t size = kLeast;
-    while (size < 3 * tets) size *= 2;
+    while (2 * size < 3 * faces) size *= 2;
     return size;
   }
   static std::pair<Key, std::uint32_t> key_of(const TetVertices& tet, unsigned face) {
@@ -122,25 +89,19 @@ class TetFaces {
   static bool is_same(const Key& a, const Key& b) {
     return ((a[0] ^ b[0]) | (a[1] ^ b[1]) | (a[2] ^ b[2])) == 0;
   }
-  bool put(const Key& key, std::uint32_t gone, std::uint32_t come) {
+  /// Its entry, which may be new and then has no tet on any side.
+  Entry& entry_of(const Key& key) {
     if (4 * (used_ + 1) > 3 * entries_.size()) make_room();
     Entry& entry = probe(key);
     if (entry.sides == kFree) {
       entry = {key, 0};
       ++used_;
     }
-    entry.sides &= ~gone;  // the entry stays until the next rehash
-    const bool is_new = (entry.sides & come) == 0;
-    entry.sides |= come;
-    return is_new;
+    return entry;
   }
   Entry& probe(const Key& key) { return entries_[place_of(key)]; }
   std::uint32_t sides_of(const Key& key) const { return entries_[place_of(key)].sides; }
   std::uint32_t bits_of(const Key& key) const { return sides_of(key) & 3u; }
-  std::size_t count_open() const {
-    return static_cast<std::size_t>(
-        std::count_if(entries_.begin(), entries_.end(), std::mem_fn(&Entry::is_open)));
-  }
   void make_room() {
     const auto live = static_cast<std::size_t>(
         std::count_if(entries_.begin(), entries_.end(), std::mem_fn(&Entry::is_there)));

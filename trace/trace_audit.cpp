@@ -42,14 +42,7 @@ void TraceAudit::follow(const TraceEvent& event) {
   ++position_;
   if (!playback_.prepare(event, position_ - 1)) return;
   const auto tets = playback_.tet_changes(position_);
-  if (event.kind != EventKind::move_vertex) {
-    const bool is_cavity = event.kind == EventKind::replace_cavity;
-    const bool at_surface = !event.created_labels.empty();
-    if (is_cavity) check_slots(tets, at_surface);
-    list_faces(tets, is_cavity);
-    if (is_cavity) check_hull(at_surface);
-    follow_tets(tets);
-  }
+  follow_tets(event, tets);
   follow_vertices(playback_.vertex_changes(position_));
   playback_.make();
 }
@@ -82,13 +75,12 @@ void TraceAudit::check_slots(std::span<const TetChange> changes, bool at_surface
 
 /// Those of the tets removed and created.
 void TraceAudit::list_faces(std::span<const TetChange> changes, bool is_cavity) {
-  removed_.clear(changes.size());
-  created_.clear(changes.size());
+  faces_.list_none(changes.size());
   for (const TetChange& change : changes) {
     if (!is_cavity && is_same(change.before, change.after)) continue;  // a move is undone
     for (unsigned f = 0; f < 4; ++f) {
-      if (change.before[0].is_valid()) removed_.add(change.before, f);
-      if (change.after[0].is_valid() && !created_.add(change.after, f)) {
+      if (change.before[0].is_valid()) faces_.list_gone(change.before, f);
+      if (change.after[0].is_valid() && !faces_.list_come(change.after, f)) {
         throw ByteReader::Damage(fmt::format(
             "new tet {} lies on the same side of a face as another", text_of(change.after)));
       }
@@ -99,23 +91,35 @@ void TraceAudit::list_faces(std::span<const TetChange> changes, bool is_cavity) 
 /// The open faces of the tets removed and created are the same, but for those of the boundary where
 /// that may change.
 void TraceAudit::check_hull(bool at_surface) {
-  const bool fills =
-      at_surface ? removed_.same_hull_inside(created_, faces_) : removed_.same_hull(created_);
-  if (!fills) {
+  if (!(at_surface ? faces_.keep_hull_inside() : faces_.keep_hull())) {
     throw ByteReader::Damage("the new tets do not fill the cavity of the old ones");
   }
 }
 
-/// Most faces are of tets on both sides of the change: the large table has only what differs.
-void TraceAudit::follow_tets(std::span<const TetChange> changes) {
+/// What is undone was looked at when it was done.
+void TraceAudit::follow_tets(const TraceEvent& event, std::span<const TetChange> changes) {
+  const bool is_cavity = event.kind == EventKind::replace_cavity;
+  const bool at_surface = !event.created_labels.empty();
+  const bool is_undo = event.kind == EventKind::undo;
+  const bool is_move = event.kind == EventKind::move_vertex;
+  if (changes_mesh(event.kind) && !is_undo) faces_.begin_edit(is_move ? 0 : changes.size());
+  if (is_move) return;
+  if (is_undo && faces_.undo()) return count_tets(changes);
+  if (is_cavity) check_slots(changes, at_surface);
+  list_faces(changes, is_cavity);
+  if (is_cavity) check_hull(at_surface);
+  if (!faces_.make()) fail_at(changes.back().after);
+  count_tets(changes);
+}
+
+void TraceAudit::count_tets(std::span<const TetChange> changes) {
   for (const TetChange& change : changes) {
-    if (!change.before[0].is_valid()) continue;
-    for (const VertexHandle v : change.before) --tets_of_[v.index()];
-  }
-  if (!faces_.exchange(removed_, created_)) fail_at(changes.back().after);
-  for (const TetChange& change : changes) {
-    if (!change.after[0].is_valid()) continue;
-    for (const VertexHandle v : change.after) ++tets_of_[v.index()];
+    if (change.before[0].is_valid()) {
+      for (const VertexHandle v : change.before) --tets_of_[v.index()];
+    }
+    if (change.after[0].is_valid()) {
+      for (const VertexHandle v : change.after) ++tets_of_[v.index()];
+    }
   }
 }
 

@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
+#include "trace/edited_faces.h"
 #include "trace/playback.h"
-#include "trace/tet_faces.h"
 
 namespace tetmend {
 
@@ -21,7 +21,10 @@ class TraceAudit {
   /// The next event of the trace.
   void follow(const TraceEvent& event);
   /// Nothing before the next event may be undone any more.
-  void begin_chunk() { playback_.forget_log(position_); }
+  void begin_chunk() {
+    playback_.forget_log(position_);
+    faces_.settle();
+  }
   /// After the last event.
   const SlotMesh& mesh() const { return playback_.mesh(); }
   /// The same, to be asked for last.
@@ -29,7 +32,8 @@ class TraceAudit {
 
  private:
   void check_names(const TraceEvent& event) const;
-  void follow_tets(std::span<const TetChange> changes);
+  void follow_tets(const TraceEvent& event, std::span<const TetChange> changes);
+  void count_tets(std::span<const TetChange> changes);
   void follow_vertices(std::span<const VertexChange> changes);
   void check_slots(std::span<const TetChange> changes, bool at_surface);
   void list_faces(std::span<const TetChange> changes, bool is_cavity);
@@ -38,8 +42,7 @@ class TraceAudit {
 
   Playback playback_;
   std::uint64_t position_ = 0;
-  TetFaces faces_;
-  TetFaces removed_, created_;               // by the last change
+  EditedFaces faces_;
   std::vector<std::uint32_t> tets_of_;       // how many, by vertex slot
   std::vector<std::uint64_t> last_changed_;  // by which event, by tet slot
 };
