@@ -45,7 +45,7 @@ struct Offer {
 };
 
 /// What the window is to ask the user for a file for.
-enum class FileQuestion : std::uint8_t { none, open, save, schedule, reference };
+enum class FileQuestion : std::uint8_t { none, open, save, schedule, reference, other_run };
 
 /// What the user points at in one of the views; the others light it up.
 struct Pointed {

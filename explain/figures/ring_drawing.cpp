@@ -26,6 +26,11 @@ constexpr double kRadius = 0.76;  // of the polygon; less for long names
 constexpr double kLeastRadius = 0.5;
 constexpr double kGap = 0.05;  // between its corners and their names
 
+// Below the number of a corner its place in the ring; in units of the number's size.
+constexpr double kPlaceSize = 0.85;
+constexpr double kIndexSize = 0.65;
+constexpr double kPlaceBelow = 1.05;
+
 Place mix(const Place& p, const Place& q, double t) {
   return {(1 - t) * p.x + t * q.x, (1 - t) * p.y + t * q.y};
 }
@@ -95,42 +100,58 @@ class PolygonDrawer {
   double half_width(std::size_t i) const {
     return figure::text_width(name_text(i), look_.name_size, figure::Font::bold) / 2;
   }
+  double half_height() const { return (1 + kPlaceBelow) / 2 * look_.name_size; }
   /// Of the middle of a name from its corner.
   double distance_of_name(std::size_t i) const {
     const Eigen::Vector2d out = shell_.place(i);
-    const double height = look_.name_size / 2;
-    return kGap * look_.half + half_width(i) * std::abs(out.x()) + height * std::abs(out.y());
+    return kGap * look_.half + half_width(i) * std::abs(out.x()) +
+           half_height() * std::abs(out.y());
   }
 
   /// The largest with which all names lie in the square, clear of the polygon.
   double radius_for_names() const {
     double radius = kRadius;
     if (look_.name_size <= 0) return radius;
+    const auto shrink = [&](std::size_t i, double out, double half_size) {
+      constexpr double kAcross = 0.3;  // there is room in this direction
+      if (out < kAcross) return;
+      const double room = look_.half - half_size - distance_of_name(i) * out;
+      radius = std::min(radius, room / (look_.half * out));
+    };
     for (std::size_t i = 0; i < shell_.ring.size(); ++i) {
-      const double side = std::abs(shell_.place(i).x());
-      constexpr double kUpright = 0.3;  // above or below the polygon
-      if (side < kUpright) continue;
-      const double room = look_.half - half_width(i) - distance_of_name(i) * side;
-      radius = std::min(radius, room / (look_.half * side));
+      shrink(i, std::abs(shell_.place(i).x()), half_width(i));
+      shrink(i, std::abs(shell_.place(i).y()), half_height());
     }
     return std::max(radius, kLeastRadius);
   }
 
   /// Outside of its corner, so far that it is clear of the polygon, and inside of the square.
-  Text name_of(std::size_t i) const {
+  Place middle_of_name(std::size_t i) const {
     const Eigen::Vector2d out = shell_.place(i);
-    const double width = half_width(i);
-    const double height = look_.name_size / 2;
     const double away = distance_of_name(i);
     const auto inside = [&](double middle, double at, double own) {
       const double most = std::max(look_.half - own, 0.0);
       return std::clamp(at, middle - most, middle + most);
     };
     const Place from = corner(i);
-    Text name = figure::centred({inside(look_.middle.x, from.x + away * out.x(), width),
-                                 inside(look_.middle.y, from.y - away * out.y(), height)},
-                                name_text(i), look_.name_size, figure::Font::bold);
-    name.colour = look_.ink;
+    return {inside(look_.middle.x, from.x + away * out.x(), half_width(i)),
+            inside(look_.middle.y, from.y - away * out.y(), half_height())};
+  }
+
+  /// The number of the vertex, and below it p_i as the paper has it.
+  std::array<Text, 3> name_of(std::size_t i) const {
+    const double size = look_.name_size;
+    Place middle = middle_of_name(i);
+    middle.y -= half_height() - size / 2;
+    Text number = figure::centred(middle, name_text(i), size, figure::Font::bold);
+    Text letter{{}, "p", kPlaceSize * size, figure::Font::oblique};
+    Text index{{}, fmt::format("{}", i + 1), kIndexSize * size};
+    const double letter_width = figure::text_width(letter.text, letter.size, letter.font);
+    const double width = letter_width + figure::text_width(index.text, index.size);
+    letter.at = {middle.x - width / 2, number.at.y + kPlaceBelow * size};
+    index.at = {letter.at.x + letter_width, letter.at.y + 0.15 * size};
+    std::array<Text, 3> name = {std::move(number), std::move(letter), std::move(index)};
+    for (Text& text : name) text.colour = look_.ink;
     return name;
   }
 
@@ -199,9 +220,10 @@ class PolygonDrawer {
   void words(LinkedDrawing& all) {
     LabelPlacer placer;
     for (std::size_t i = 0; i < shell_.ring.size(); ++i) {
-      Text name = name_of(i);
-      placer.occupy(figure::box_of(name));
-      all.add(std::move(name), {{shell_.ring[i]}, {}});
+      for (Text& text : name_of(i)) {
+        placer.occupy(figure::box_of(text));
+        all.add(std::move(text), {{shell_.ring[i]}, {}});
+      }
     }
     const std::array<double, 3> sizes = {look_.number_size, 0.79 * look_.number_size,
                                          0.64 * look_.number_size};

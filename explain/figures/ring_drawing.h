@@ -11,7 +11,7 @@ namespace tetmend::explain {
 struct RingLook {
   figure::Place middle;    ///< of the square that polygon and names fill
   double half = 1;         ///< half of its side
-  double name_size = 8;    ///< of the text; 0: no names and no numbers
+  double name_size = 8;    ///< of a vertex's number, p_i is smaller; 0: no names and no numbers
   double number_size = 7;  ///< likewise, where there is room for it
   double line = 1;         ///< width of the skirt polygon's side, in thirds
   figure::Colour ink = figure::kBlack;

@@ -69,7 +69,7 @@ Drawing draw_ring(const TraceFile& file, const CallStudy& study) {
   // Wide enough that the numbers of the slices have room.
   const double side = std::max(190.0, 13.5 * static_cast<double>(shell.ring.size()));
   constexpr double kBetween = 20;
-  constexpr double kShare = 0.96;  // of the side that names and polygon take
+  constexpr double kShare = 1.03;  // of the side that names and polygon take, with a gap below
   Drawing drawing;
   drawing.title = figure_title(file, study.call);
   drawing.width = figure_width(drawing.title, stages.size(), side, kBetween);

@@ -44,6 +44,10 @@ json pairs_of_tets(const std::vector<TetPair>& pairs) {
 
 json against(Session& s, const json& a) {
   Debugger& debugger = need_trace(s.document);
+  if (a.empty()) {
+    s.document.question = FileQuestion::other_run;
+    return nullptr;
+  }
   debugger.compare_with(Arguments("against", a).text(0));
   const RunComparison& made = debugger.other()->comparison;
   s.document.message = {
@@ -63,7 +67,7 @@ constexpr std::array kLedgerCommands = {
     Command{"list_calls", "", "", "list_calls(\"operator smoothing and refused\")",
             "List the calls of a condition, the nearest to being accepted first; their numbers",
             &list_calls},
-    Command{"against", "", "", "against(\"FILE.trace\")",
+    Command{"against", "Ctrl+B", "Trace", "against(\"FILE.trace\")",
             "Another run beside this one: differences of the ledgers, tets bad in one alone",
             &against},
 };

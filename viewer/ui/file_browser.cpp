@@ -23,11 +23,13 @@ constexpr const char* kPopup = "##file";
 const char* title_of(FileQuestion question) {
   if (question == FileQuestion::save) return "Save the mesh as";
   if (question == FileQuestion::reference) return "Open a mesh whose surface to compare with";
+  if (question == FileQuestion::other_run) return "Open a trace to compare this run with";
   return question == FileQuestion::schedule ? "Choose a schedule" : "Open a mesh or a trace";
 }
 
 std::vector<std::string_view> extensions_of(FileQuestion question) {
   if (question == FileQuestion::schedule) return {".lua"};
+  if (question == FileQuestion::other_run) return {".trace"};
   std::vector<std::string_view> extensions;
   for (const MeshFormat& format : mesh_formats()) extensions.push_back(format.extension);
   if (question == FileQuestion::open) extensions.emplace_back(".trace");
@@ -174,6 +176,9 @@ void FileBrowser::finish(Session& session) {
     if (question_ == FileQuestion::save) session.document.save(file);
     if (question_ == FileQuestion::reference) {
       find_command("reference").run(session, {file.string()});
+    }
+    if (question_ == FileQuestion::other_run) {
+      find_command("against").run(session, {file.string()});
     }
     if (question_ == FileQuestion::schedule) session.document.live.choose_schedule(file.string());
     folder_ = folder_of(file.string());

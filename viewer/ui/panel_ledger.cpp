@@ -211,6 +211,9 @@ void draw_ledger_panel(Session& session) {
   show_rows(debugger, chosen);
   show_nearness(all);
   if (debugger.other()) show_pairs(session, *debugger.other());
+  if (ImGui::SmallButton(debugger.other() ? "another run ..." : "beside another run ...")) {
+    run_from_window(find_command("against"), session);
+  }
   if (chosen.empty()) return;
   debugger.typed_condition = chosen;
   run_from_window(find_command("list_calls"), session, {chosen});

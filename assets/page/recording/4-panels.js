@@ -48,10 +48,17 @@ class RingDrawing {
       "font-weight": strong ? 700 : 600, fill: inCss(colourOf("ink")), stroke: inCss(colourOf("card")), "stroke-width": 0.022, "paint-order": "stroke", "data-kind": kind}, text));
   }
 
+  /** The number of the vertex, and below it p_i as the paper has it. */
+  corner([x, y], vertex, i) {
+    this.label([x, y - 0.5 * this.text], `${vertex}`, true, "corner");
+    this.label([x, y + 0.65 * this.text], "", false, "place");
+    this.labels.at(-1).append(svgElement("tspan", {"font-style": "italic"}, "p"), svgElement("tspan", {"font-size": "75%", dy: "0.25em"}, `${i + 1}`));
+  }
+
   outline() {
     this.shell.ring.forEach((vertex, i) => {
       this.stroke(this.at(i), this.at((i + 1) % this.shell.ring.length), "skirt", 3);
-      this.label(ringPlace(this.shell, i, 0.9), `${vertex}`, true, "corner");
+      this.corner(ringPlace(this.shell, i, 0.9), vertex, i);
     });
   }
 

@@ -108,6 +108,30 @@ TEST_CASE("after a refusal without a candidate the best complete triangulation i
   for (const auto& t : study.picture->full.triangles) CHECK(has_number(drawing, t.quality));
 }
 
+TEST_CASE("each corner has its number, and below it its place in the ring") {
+  const SlotMesh mesh{TetMesh(test::shell_mesh({.degree = 5}))};
+  CallStudy study;
+  study.picture = picture_of_shell(mesh, find_slot_shell(mesh, VertexHandle(0), VertexHandle(1)));
+  const auto& ring = study.picture->ring;
+  const LinkedDrawing drawing = drawn(study, 0, false);
+  check_words(drawing);
+  std::vector<std::vector<figure::Text>> texts(ring.size());  // of each corner
+  for (std::size_t n = 0; n < drawing.meanings.size(); ++n) {
+    const auto* text = std::get_if<figure::Text>(&drawing.drawing.shapes[n]);
+    if (text == nullptr || drawing.meanings[n].vertices.size() != 1) continue;
+    const auto corner = std::find(ring.begin(), ring.end(), drawing.meanings[n].vertices[0]);
+    REQUIRE(corner != ring.end());
+    texts[static_cast<std::size_t>(corner - ring.begin())].push_back(*text);
+  }
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    REQUIRE(texts[i].size() == 3);
+    CHECK(texts[i][0].text == fmt::format("{}", ring[i].index()));
+    CHECK(texts[i][1].text == "p");
+    CHECK(texts[i][2].text == fmt::format("{}", i + 1));
+    CHECK(texts[i][1].at.y > texts[i][0].at.y);
+  }
+}
+
 TEST_CASE("what lies under the mouse is told by its vertices: names, then lines, then areas") {
   const SlotMesh mesh{TetMesh(test::shell_mesh({.degree = 5}))};
   CallStudy study;

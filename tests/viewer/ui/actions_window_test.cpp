@@ -35,6 +35,12 @@ class Hand {
   int actions = 0;
 };
 
+/// A run over the ball of TracedBall.
+void record_smoothing(const std::string& trace) {
+  TetMesh mesh(delaunay_ball(120, 3));
+  record(mesh, trace, {}, {}, Schedule("brief", "smooth{}"));
+}
+
 }  // namespace
 
 TEST_CASE(
@@ -161,13 +167,32 @@ TEST_CASE("pause, three calls back, explain, another parameter, go on: six actio
   CHECK(state["held_parameters"] == nlohmann::json{"mean_smoothing: steps = 3"});
 }
 
+TEST_CASE("two runs stand side by side by a key and a name") {
+  if (!can_test_window()) return;
+  const TracedBall trace;
+  TempFolder folder;
+  const std::string other = (folder / "other.trace").string();
+  record_smoothing(other);
+  Viewer viewer(trace.path(), kSize);
+  wait_until_still();
+  Hand hand;
+  hand.key("ctrl+b");
+  wait_until_still();  // the dialog
+  type("type " + other);
+  hand.key("Return");
+  CHECK(hand.actions <= 2);
+  wait_until_still();
+  const auto state = viewer.quit();
+  REQUIRE(state["trace"]["against"].is_object());
+  CHECK(state["trace"]["against"]["file"] == other);
+}
+
 TEST_CASE("two runs stand side by side by the command alone, and one click unfolds an operator") {
   if (!can_test_window()) return;
   const TracedBall trace;
   TempFolder folder;
   const std::string other = (folder / "other.trace").string();
-  TetMesh mesh(delaunay_ball(120, 3));
-  record(mesh, other, {}, {}, Schedule("brief", "smooth{}"));
+  record_smoothing(other);
   const RunComparison wanted = compare_runs(TraceFile(trace.path()), TraceFile(other));
   Viewer viewer(trace.path(), kSize, "1", {"--against", other});
   wait_until_still();
