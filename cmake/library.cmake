@@ -29,7 +29,7 @@ if(BUILD_SHARED_LIBS)
     target_link_options(tetmend_library PRIVATE
       -Wl,--version-script=${PROJECT_SOURCE_DIR}/cmake/exports.map -Wl,-Bsymbolic-functions -Wl,--as-needed)
   endif()
-  if(NOT APPLE AND NOT TETMEND_SANITIZE)
+  if(NOT APPLE AND NOT TETMEND_SANITIZE AND NOT TETMEND_SANITIZE_THREADS)
     target_link_options(tetmend_library PRIVATE -Wl,--no-undefined)  # sanitizers are in the program
   endif()
   set_target_properties(tetmend_library PROPERTIES
