@@ -88,6 +88,12 @@ class Writer {
         sections_[at->second].elements.push_back({k, i});
       }
     }
+    // A reader numbers what has a name by its place: with labels ascending these stay.
+    const auto place = [](const WrittenSection& section) {
+      return std::tuple(-section.dimension, section.label == 0, section.label);
+    };
+    std::stable_sort(sections_.begin(), sections_.end(),
+                     [&](const auto& a, const auto& b) { return place(a) < place(b); });
     std::int64_t next = 1;
     for (WrittenSection& section : sections_) {
       section.first = next;

@@ -147,6 +147,7 @@ class FebioReader : FebioMesh {
     if (sets_.empty()) return;
     for (const ElementSet& set : sets_) {  // a triangle has the label of its first surface
       for (const std::uint32_t element : set.elements) {
+        if (elements_[element].of().dimension == 3) continue;  // that of its block
         Label& label = label_at(mesh_, elements_[element]);
         if (label == 0) label = static_cast<Label>(set.number);
       }

@@ -13,6 +13,7 @@
 
 #include <fmt/format.h>
 
+#include "kernel/error.h"
 #include "kernel/formats/element_rows.h"
 #include "kernel/formats/element_sets.h"
 #include "kernel/formats/febio.h"
@@ -50,6 +51,7 @@ class FebioWriter {
     if (data != nullptr && data->variant == kFebio && !data->deck.empty()) {
       sort_points(data->deck);
       for (std::size_t i = 1; i < data->deck.size(); ++i) write_piece(data->deck[i]);
+      check_labels();
     } else {
       write_new();
     }
@@ -122,6 +124,20 @@ class FebioWriter {
         break;
       default:
         break;
+    }
+  }
+
+  /// Who changes labels may ask for one that the deck has no block for.
+  void check_labels() const {
+    for (const auto& [label, members] : of_label_) {
+      const auto is_tet = [this](const GroupMembers::Member& member) {
+        const int type = lists_.all()[member.list].kind.vtk_type;
+        return type == vtk_tet || type == vtk_tet10;
+      };
+      const auto tets = std::count_if(members.begin(), members.end(), is_tet);
+      if (tets == 0 || labels_written_.contains(label)) continue;
+      throw Error(
+          fmt::format("{} tets have the label {}, and the deck has no block for it", tets, label));
     }
   }
 
@@ -254,11 +270,8 @@ class FebioWriter {
     if (mesh_.data() != nullptr) named = LabelNames(*mesh_.data()).named(3);
     for (const ElementList* list : lists_.of_dimension(3)) {
       if (febio_type(list->kind.vtk_type).empty()) continue;
-      std::set<Label> seen;
-      std::vector<Label> labels;  // as they come first, so that the order of tets stays
-      for (std::size_t i = 0; i < list->count; ++i) {
-        if (seen.insert(list->label(i)).second) labels.push_back(list->label(i));
-      }
+      std::set<Label> labels;  // a reader numbers what has a name by its place
+      for (std::size_t i = 0; i < list->count; ++i) labels.insert(list->label(i));
       for (const Label label : labels) {
         const auto found = named.find(label);
         if (found != named.end()) written.insert(found->second);
@@ -274,19 +287,15 @@ class FebioWriter {
   /// One for each label of triangles and quadrilaterals, and for each group that is none.
   void write_surfaces(std::set<const Group*>& written) {
     std::map<Label, std::vector<GroupMembers::Member>> of_label;
-    std::vector<Label> labels;  // as they come first
     for (std::uint32_t k = 0; k < lists_.all().size(); ++k) {
       const ElementList& list = lists_.all()[k];
       for (std::uint32_t i = 0; i < list.count && list.kind.dimension == 2; ++i) {
-        auto& members = of_label[list.label(i)];
-        if (members.empty()) labels.push_back(list.label(i));
-        members.push_back({k, i});
+        of_label[list.label(i)].push_back({k, i});
       }
     }
     std::map<Label, const Group*> named;
     if (mesh_.data() != nullptr) named = LabelNames(*mesh_.data()).named(2);
-    for (const Label label : labels) {
-      const auto& members = of_label[label];
+    for (const auto& [label, members] : of_label) {
       const auto found = named.find(label);
       if (found != named.end()) written.insert(found->second);
       put_surface(found == named.end() ? label_name(label) : found->second->name, members);

@@ -8,6 +8,7 @@
 
 #include <doctest/doctest.h>
 
+#include "contract/zoo.h"
 #include "kernel/formats/hdf5_file.h"
 #include "tests/kernel/formats/fixtures.h"
 
@@ -117,6 +118,20 @@ TEST_CASE("what a CGNS file holds survives writing, and writing again gives the 
   CHECK(again.deck == mesh.deck);
   write_mesh(folder / "c.cgns", again);
   CHECK(read_text(folder / "b.cgns") == read_text(folder / "c.cgns"));
+}
+
+TEST_CASE("labels of named sections of CGNS stay whichever tet comes first") {
+  if (!formats::has_hdf5()) return;
+  const TempFolder folder;
+  MeshData mesh = contract::kuhn_cube(1, 0, 1);
+  for (std::size_t t = 0; t < mesh.tets.size(); ++t) mesh.tets[t].label = t == 0 ? 2 : 1;
+  mesh.groups = {{3, 1, "one", {}, {}}, {3, 2, "two", {}, {}}};
+  for (const char* name : {"a.cgns", "a.feb"}) {
+    write_mesh(folder / name, mesh);
+    const MeshData again = read_mesh(folder / name);
+    const auto is_two = [](const MeshData::Tet& tet) { return tet.label == 2; };
+    CHECK(std::count_if(again.tets.begin(), again.tets.end(), is_two) == 1);
+  }
 }
 
 TEST_CASE("tets, hexahedra and prisms of one label are one mixed section of CGNS") {

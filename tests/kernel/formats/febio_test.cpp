@@ -83,6 +83,17 @@ TEST_CASE("a model of FEBio gives nodes, blocks, surfaces and sets") {
   CHECK(mesh.notes.empty());
 }
 
+TEST_CASE("a set of tets of FEBio labels none, and tets of no block are not lost in silence") {
+  const TempFolder folder;
+  MeshData mesh = read_model(folder, altered(model_text(), "Part1", "Label_0"));
+  CHECK(mesh.tets == std::vector<MeshData::Tet>{{{0, 1, 2, 3}, 0}, {{1, 2, 3, 4}, 1}});
+  write_mesh(folder / "b.feb", mesh);
+  CHECK(read_mesh(folder / "b.feb").tets == mesh.tets);
+  mesh.tets[0].label = 7;
+  CHECK_THROWS_WITH_AS(write_mesh(folder / "c.feb", mesh),
+                       doctest::Contains("1 tets have the label 7"), Error);
+}
+
 TEST_CASE("a model of FEBio comes back, all but its mesh word for word") {
   const TempFolder folder;
   const MeshData mesh = read_model(folder, model_text());
