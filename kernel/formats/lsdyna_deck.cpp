@@ -20,8 +20,7 @@ bool starts_with_any(std::string_view text, std::initializer_list<std::string_vi
 }
 
 bool names_no_nodes(std::string_view keyword) {
-  if (starts_with_any(keyword, {"DATABASE_HISTORY_NODE", "DATABASE_NODAL", "CONTROL_REF",
-                                "BOUNDARY_PRESCRIBED_MOTION_NODE", "BOUNDARY_SPC_NODE"})) {
+  if (starts_with_any(keyword, {"DATABASE_HISTORY_NODE", "DATABASE_NODAL", "CONTROL_REF"})) {
     return false;
   }
   return starts_with_any(keyword, {"KEYWORD",
@@ -45,7 +44,6 @@ bool names_no_nodes(std::string_view keyword) {
                                    "SET_BEAM",
                                    "LOAD_BODY",
                                    "LOAD_SEGMENT_SET",
-                                   "LOAD_NODE_SET",
                                    "BOUNDARY_SPC_SET",
                                    "BOUNDARY_PRESCRIBED_MOTION_SET",
                                    "BOUNDARY_PRESCRIBED_MOTION_RIGID",

@@ -16,9 +16,11 @@
 #include "kernel/formats/element_rows.h"
 #include "kernel/formats/element_sets.h"
 #include "kernel/formats/harmless_notes.h"
+#include "kernel/formats/inp_lines.h"
 #include "kernel/formats/input_file.h"
 #include "kernel/formats/lsdyna.h"
 #include "kernel/formats/lsdyna_mesh.h"
+#include "kernel/formats/lsdyna_nodes.h"
 #include "kernel/formats/nastran_card.h"
 
 namespace tetmend::formats {
@@ -338,20 +340,46 @@ class LsDynaReader : LsDynaMesh {
   // ---- Pins ---------------------------------------------------------------------------------------
 
   void pin(const LsDynaBlock& block) {
+    if (block.keyword.starts_with("SET_")) return pin_set(block);
     PointPins::Pins& pins = pins_.line_of("*" + block.keyword, block.begin);
-    const bool is_set = block.keyword.starts_with("SET_");
-    if (is_set && block.keyword.find("GENERAL") == std::string::npos) {
-      each_member(block, read_head(block).members, [&](std::int64_t first, std::int64_t last) {
-        pins.ranges.push_back(nodes_.range(first, last));
-      });
-      return;
-    }
     const std::size_t width = block.keyword.starts_with("ELEMENT_") ? now().integer : now().card;
+    LsDynaNodeFields nodes(block.keyword);
     for (const std::string_view line : lines(block)) {
       split(line, width, width);
-      for (const std::string_view each : fields_) {
-        std::int64_t number = 0;
-        if (nastran_integer(each, number)) pins.ranges.push_back(nodes_.range(number, number));
+      pin_fields(pins, nodes.of_line(fields_));
+    }
+  }
+  void pin_fields(PointPins::Pins& pins, std::uint32_t which) {
+    for (std::size_t i = 0; i < fields_.size(); ++i) {
+      const bool is_node = which == kAllFields || (i < 32 && (which >> i & 1) != 0);
+      std::int64_t number = 0;
+      if (is_node && nastran_integer(fields_[i], number)) {
+        pins.ranges.push_back(nodes_.range(number, number));
+      }
+    }
+  }
+
+  /// One that stays in the deck: of segments, of ranges with steps, by options.
+  void pin_set(const LsDynaBlock& block) {
+    const std::string_view keyword = block.keyword;
+    if (keyword.starts_with("SET_NODE_ADD")) return;  // of sets
+    PointPins::Pins& pins = pins_.line_of("*" + block.keyword, block.begin);
+    const SetHead head = read_head(block);
+    const bool is_general = keyword.find("GENERAL") != std::string_view::npos;
+    const bool is_of_segments = keyword.starts_with("SET_SEGMENT");
+    if (!is_general && !is_of_segments && !keyword.starts_with("SET_NODE_COLUMN")) {
+      return each_member(block, head.members, [&](std::int64_t first, std::int64_t last) {
+        pins.ranges.push_back(nodes_.range(first, last));
+      });
+    }
+    for (const std::string_view line : head.members) {
+      split(line, now().card, now().card);
+      if (is_general) {  // the option, and what it is about
+        const std::string option = inp_key(field(0));
+        const bool has_nodes = option == "NODE" || option == "SEG";
+        pin_fields(pins, !has_nodes ? 0 : is_of_segments ? 0b11110 : 0b11111110);
+      } else {
+        pin_fields(pins, is_of_segments ? 0b1111 : 0b1);
       }
     }
   }

@@ -3,6 +3,7 @@
 #include "kernel/formats/lsdyna.h"
 
 #include <algorithm>
+#include <array>
 
 #include <doctest/doctest.h>
 #include <fmt/format.h>
@@ -270,6 +271,56 @@ TEST_CASE(
   CHECK(read_deck(folder, held).required_vertices == std::vector<std::uint32_t>{0, 1, 2, 3, 4});
   write_text(folder / "held.k", "*KEYWORD LONG=Y\n*NODE\n");
   CHECK(error_of_reading(folder / "a.k").starts_with("a.k:20: the file has other options"));
+}
+
+TEST_CASE("of the numbers of a keyword of LS-DYNA only those that are nodes pin nodes") {
+  struct Row {
+    std::string keyword, lines;
+    std::vector<std::uint32_t> pinned;  // nodes of the numbers 11 to 14 and 20
+  };
+  // Each has a number that is a node, too: of a curve, a box, a part, a direction.
+  const auto rows = std::to_array<Row>({
+      {"BOUNDARY_SPC_NODE", "11,12,13,14\n20,0,11\n", {0, 4}},
+      {"BOUNDARY_SPC_NODE_ID", "12,the foot\n11,0,1,1,1\n", {0}},
+      {"BOUNDARY_SPC_NODE_BIRTH_DEATH", "11,0,1\n12,13\n14,0,1\n12,13\n", {0, 3}},
+      {"BOUNDARY_PRESCRIBED_MOTION_NODE", "11,1,2,14,1.0,13\n12,1,2,14\n", {0, 1}},
+      {"BOUNDARY_PRESCRIBED_MOTION_NODE", "11,9,2,14\n12,12,0,13,14\n20,1,2,12\n", {0, 2, 3, 4}},
+      {"BOUNDARY_PRESCRIBED_MOTION_NODE", "11,1,4,14\n12,12,0,13,14\n", {0, 2, 3}},
+      {"LOAD_NODE_POINT", "11,12,13,1.0,20\n11,4,13,1.0,20,12,14,20\n", {0, 1, 3, 4}},
+      {"LOAD_NODE_SET", "11,4,13,1.0,20,12,14,20\n", {1, 3, 4}},
+      {"LOAD_SEGMENT", "11,1.0,0.0,12,13,14,14\n", {1, 2, 3}},
+      {"LOAD_SEGMENT", "13,1.0,0.0,12,12,12,12,11\n14,14,14\n13,1.0,0.0,12,12,12,12\n", {0, 1, 3}},
+      {"DEFINE_BOX", "11,12,13,14,20,12,13\n", {}},
+      {"DEFINE_COORDINATE_NODES", "11,12,13,14\n", {1, 2, 3}},
+      {"DEFINE_VECTOR", "11,12,13,14,20,12,13\n", {}},
+      {"RIGIDWALL_PLANAR_MOVING", "11,12,13\n14,20,12,13\n", {}},
+      {"CONSTRAINED_NODAL_RIGID_BODY", "11,12,13\n11,12,13,14\n", {3}},
+      {"CONSTRAINED_NODAL_RIGID_BODY_INERTIA", "11,12,13\n", {0, 1, 2}},  // not known
+      {"CONSTRAINED_EXTRA_NODES_NODE", "11,12\n", {1}},
+      {"CONSTRAINED_JOINT_REVOLUTE_ID", "20,hinge\n11,12,13,14,0,0,20\n", {0, 1, 2, 3}},
+      {"DATABASE_HISTORY_NODE", "11,12\n", {0, 1}},
+      {"DATABASE_HISTORY_NODE_ID", "11,20\n", {0}},
+      {"DATABASE_NODAL_FORCE_GROUP", "11,12\n", {}},
+      {"ELEMENT_MASS", "11,12,1.0\n", {1}},
+      {"ELEMENT_BEAM", "11,12,13,14\n", {2, 3}},
+      {"SET_NODE_GENERAL", "7\nPART,11,12\nbox,13\nNode,14,20\n", {3, 4}},
+      {"SET_SEGMENT_GENERAL", "7\nPART,11,12\nSEG,12,13,14,14,20\n", {1, 2, 3}},
+      {"SET_NODE_ADD", "7\n11,12\n", {}},
+      {"SET_NODE_COLUMN", "7\n11,12\n", {0}},
+      {"SET_SEGMENT", "7\n11,12,13,13,14,20\n", {0, 1, 2}},
+      {"A_KEYWORD_OF_TOMORROW", "11,12\n", {0, 1}},
+  });
+  const TempFolder folder;
+  std::string text = edited(deck_text(), "       7       0", "");
+  text = edited(text, "*BOUNDARY_SPC_NODE", "*CONTROL_SOMETHING");
+  text = text.substr(0, text.find("*SET_SOLID"));
+  REQUIRE(read_deck(folder, text).required_vertices.empty());
+  for (const Row& row : rows) {
+    CAPTURE(row.keyword);
+    CAPTURE(row.lines);
+    CHECK(read_deck(folder, text + "*" + row.keyword + "\n" + row.lines).required_vertices ==
+          row.pinned);
+  }
 }
 
 TEST_CASE("a set of nodes of LS-DYNA that fills a volume pins none, and is written anew") {
