@@ -94,7 +94,8 @@ constexpr Room kMeditRoom = {.others = true,
                              .second_order = true,
                              .marks = true,
                              .holds = formats::medit_holds};
-constexpr Room kTetgenRoom = {.second_order = true, .own_arrays = formats::kTetgenArrays};
+constexpr Room kTetgenRoom = {
+    .second_order = true, .both_orders = false, .own_arrays = formats::kTetgenArrays};
 constexpr Room kVtkRoom = {.data = true, .others = true, .second_order = true};
 constexpr Room kVtuRoom = {
     .data = true, .others = true, .second_order = true, .names_are_text = true};

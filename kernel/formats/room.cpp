@@ -21,6 +21,7 @@
 #include "kernel/formats/xdmf.h"
 #include "kernel/parts.h"
 #include "kernel/printable.h"
+#include "kernel/second_order.h"
 
 namespace tetmend::formats {
 namespace {
@@ -148,6 +149,17 @@ void note_groups(const Room& room, const MeshData& mesh, LostNotes& notes) {
       notes.extension, std::count_if(first, kept.end(), is_changed), printable((*first)->name)));
 }
 
+/// Triangles and edges, of a mesh whose tets are of second order.
+std::size_t of_first_order(const MeshData& mesh) {
+  if (mesh.mid_nodes.empty()) return 0;
+  const MidNodes nodes(mesh.mid_nodes);
+  const auto count = [&](const auto& elements) {
+    return std::count_if(elements.begin(), elements.end(),
+                         [&](const auto& element) { return nodes.of(element.vertices).empty(); });
+  };
+  return static_cast<std::size_t>(count(mesh.triangles) + count(mesh.edges));
+}
+
 }  // namespace
 
 bool is_word(std::string_view name) {
@@ -199,6 +211,9 @@ std::vector<std::string> lost_in(const Room& room, const std::string& extension,
   notes.lost(has_geometry || by_labels, mesh.entities.size(), "entities of the geometry are");
   notes.lost(has_geometry || room.periodic, mesh.periodic.size(), "periodic links are");
   notes.lost(room.second_order, mesh.mid_nodes.size(), "mid-side nodes of curved elements are");
+  if (!room.both_orders) {
+    notes.lost(false, of_first_order(mesh), "triangles and edges without nodes between are");
+  }
   notes.lost(room.required_vertices || has_deck, mesh.required_vertices.size(),
              "required vertices are");
   notes.lost(has_deck || has_only_roles(mesh),

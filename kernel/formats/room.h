@@ -20,6 +20,7 @@ struct Room {
   bool required_vertices = false;
   bool second_order = false;       ///< as elements of other kinds
   bool second_order_edges = true;  ///< else only in a mesh with a deck of the format
+  bool both_orders = true;         ///< triangles and edges of first order beside tets of second
   bool marks = false;              ///< groups of the names of kMeditMarks, and kMeditVectors
   bool point_labels = true;
   bool tet_labels = true;

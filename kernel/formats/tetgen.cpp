@@ -192,7 +192,8 @@ class Reader {
     if (is_second_order_) take_nodes_between(nodes);
   }
 
-  void read_nodes_between(Table& table, std::array<std::uint32_t, 6>& nodes) {
+  template <std::size_t N>
+  void read_nodes_between(Table& table, std::array<std::uint32_t, N>& nodes) {
     const auto last = static_cast<std::int64_t>(mesh_.points.size()) - 1 + base_;
     for (std::uint32_t& node : nodes) {
       node = static_cast<std::uint32_t>(
@@ -224,8 +225,7 @@ class Reader {
     return static_cast<Label>(label);
   }
 
-  /// In a mesh of second order the nodes of the edges, which the tets have too, come before the
-  /// marker. The columns behind it are not ours: TetGen's switch -nn adds the adjacent tets.
+  /// The columns behind the marker are not ours: TetGen's switch -nn adds the adjacent tets.
   template <class Element>
   void read_markers(std::string_view extension, std::vector<Element>& elements,
                     std::string_view what) {
@@ -234,28 +234,74 @@ class Reader {
     if (!std::filesystem::exists(file, ignored)) return;
     Table table(file);
     table.begin(what);
-    constexpr std::size_t kNumbers = std::tuple_size_v<decltype(Element::vertices)> + 1;
-    elements.resize(table.text().count(what, 2 * kNumbers));
+    constexpr std::size_t kCorners = std::tuple_size_v<decltype(Element::vertices)>;
+    const std::size_t count = table.text().count(what, 2 * (kCorners + 1));
+    elements.reserve(count);
     const auto markers = table.integer_or(0, "the number of boundary markers", 0, 1);
     table.end_row("the counts");
-    for (Element& element : elements) {
+    const TetParts<kCorners> of_tets =
+        is_second_order_ ? parts_of_tets<kCorners>() : TetParts<kCorners>();
+    OtherElements loose;
+    for (std::size_t i = 0; i < count; ++i) {
+      Element element;
       read_corners(table, element);
-      if (is_second_order_) {
-        constexpr std::size_t kNodes = kNumbers == 4 ? 3 : 1;
-        for (std::size_t k = 0; k < kNodes; ++k)
-          table.integer("the number of a node", 0, INT64_MAX);
-      }
+      std::array<std::uint32_t, kCorners == 3 ? 3 : 1> between{};
+      if (is_second_order_) read_nodes_between(table, between);
       if (markers != 0) {
         element.label =
             static_cast<Label>(table.integer("a boundary marker", INT32_MIN, INT32_MAX));
       }
-      if (is_asked_for(question_, elements, element)) {
-        question_->place = table.text().place_of(table.text().last_word());
+      if (!is_second_order_ || is_part(of_tets, element.vertices)) {
+        elements.push_back(element);
+        if (is_asked_for(question_, elements, elements.back())) {
+          question_->place = table.text().place_of(table.text().last_word());
+        }
+      } else {
+        loose.vertices.insert(loose.vertices.end(), element.vertices.begin(),
+                              element.vertices.end());
+        loose.vertices.insert(loose.vertices.end(), between.begin(), between.end());
+        loose.labels.push_back(element.label);
       }
       while (!table.text().word_on_line().empty()) {
       }
     }
     table.end(what);
+    if (loose.labels.empty()) return;
+    loose.vtk_type = kCorners == 3 ? 22 : 21;
+    loose.vertex_count = kCorners == 3 ? 6 : 3;
+    mesh_.other_elements.push_back(std::move(loose));
+  }
+
+  /// Faces or edges of the tets of second order, sorted: whatever is one of these has their nodes
+  /// between its corners.
+  template <std::size_t N>
+  using TetParts = std::vector<std::array<std::uint32_t, N>>;
+
+  template <std::size_t N>
+  TetParts<N> parts_of_tets() const {
+    TetParts<N> parts;
+    const OtherElements& tets = mesh_.other_elements.front();
+    for (std::size_t t = 0; t < tets.labels.size(); ++t) {
+      std::array<std::uint32_t, 4> v;
+      std::copy_n(&tets.vertices[10 * t], 4, v.begin());
+      std::sort(v.begin(), v.end());
+      if constexpr (N == 3) {
+        for (std::size_t k = 0; k < 4; ++k)
+          parts.push_back({v[k == 0], v[1 + (k <= 1)], v[2 + (k <= 2)]});
+      } else {
+        for (std::size_t i = 0; i < 4; ++i) {
+          for (std::size_t j = i + 1; j < 4; ++j) parts.push_back({v[i], v[j]});
+        }
+      }
+    }
+    std::sort(parts.begin(), parts.end());
+    parts.erase(std::unique(parts.begin(), parts.end()), parts.end());
+    return parts;
+  }
+  template <std::size_t N>
+  static bool is_part(const TetParts<N>& parts, std::array<std::uint32_t, N> vertices) {
+    std::sort(vertices.begin(), vertices.end());
+    return std::binary_search(parts.begin(), parts.end(), vertices);
   }
 
   template <class Element>
@@ -389,10 +435,11 @@ void write_second_order_tets(OutputFile& out, std::size_t base, const OtherEleme
   out.put(kLastLine);
 }
 
-/// Of first order, or of second if the mesh is.
+/// Of first order, or of second if the mesh is: a file has rows of one length.
 template <class Element>
 void write_elements(OutputFile& out, std::size_t base, std::span<const Element> elements,
-                    const OtherElements* second) {
+                    bool is_second_order, const OtherElements* second) {
+  if (is_second_order) elements = {};
   const std::size_t count = second == nullptr ? elements.size() : second->labels.size();
   out.put(fmt::format("{} 1\n", count));
   put_rows(out, count, [&](std::size_t i, OutputBuffer& buffer) {
@@ -425,14 +472,15 @@ void write_tetgen(const std::filesystem::path& node_or_ele, const MeshView& mesh
 
   const std::size_t base = base_of(mesh);
   write_nodes(nodes, mesh);
-  if (const OtherElements* second = second_order(mesh, 24)) {
+  const OtherElements* second = second_order(mesh, 24);
+  if (second != nullptr) {
     write_second_order_tets(tets, base, *second);
   } else {
     write_tets(tets, mesh);
   }
-  write_elements(faces, base, mesh.triangles(), second_order(mesh, 22));
+  write_elements(faces, base, mesh.triangles(), second != nullptr, second_order(mesh, 22));
   if (edges) {
-    write_elements(*edges, base, mesh.edges(), second_order(mesh, 21));
+    write_elements(*edges, base, mesh.edges(), second != nullptr, second_order(mesh, 21));
   }
   std::vector<OutputFile*> all = {&faces, &nodes, &tets};
   if (edges) all.push_back(&*edges);

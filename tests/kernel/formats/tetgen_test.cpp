@@ -108,6 +108,36 @@ TEST_CASE("TetGen's order of the nodes of edges is that of its switch -o2") {
   CHECK(again.edges == mesh.edges);
 }
 
+TEST_CASE("TetGen's triangles and edges of second order that no tet has come back whole") {
+  // Nodes 10 to 12 and 13 to 15 are no nodes of the tet.
+  const std::string points =
+      "5 0 1 1\n6 0 0 1\n7 1 0 0\n8 1 1 0\n9 1 0 1\n10 0 1 0\n11 9 0 0\n12 9 2 0\n"
+      "13 9 0 2\n14 9 1 0\n15 9 1 1\n16 9 0 1\n";
+  MeshData mesh = read({.node = "16 3 0 0\n1 0 0 0\n2 2 0 0\n3 0 2 0\n4 0 0 2\n" + points,
+                        .ele = "1 10 1\n1 1 2 3 4 5 6 7 8 9 10 3\n",
+                        .face = "2 1\n1 11 12 13 14 15 16 7\n2 1 3 2 10 8 7 4\n",
+                        .edge = "1 1\n1 11 12 14 -5\n"});
+  CHECK(mesh.triangles.size() == 2);
+  CHECK(mesh.edges.size() == 1);
+  CHECK(mesh.mid_nodes.size() == 9);
+  CHECK(not_written("b.ele", mesh).empty());
+  const TempFolder folder;
+  write_mesh(folder / "b.ele", mesh);
+  const MeshData again = read_mesh(folder / "b.node");
+  CHECK(again.mid_nodes == mesh.mid_nodes);
+  CHECK(again.triangles == mesh.triangles);
+  CHECK(again.edges == mesh.edges);
+  SUBCASE("without nodes between they cannot be written, and that is said") {
+    std::erase_if(mesh.mid_nodes, [](const auto& edge) { return edge[0] >= 10; });
+    CHECK(not_written("b.ele", mesh) ==
+          std::vector<std::string>{"2 triangles and edges without nodes between are not kept: .ele "
+                                   "has no place for them"});
+    write_mesh(folder / "b.ele", mesh);
+    CHECK(read_mesh(folder / "b.ele").triangles.size() == 1);
+    CHECK(read_mesh(folder / "b.ele").edges.empty());
+  }
+}
+
 TEST_CASE("TetGen counts that are left out have their usual values") {
   const MeshData mesh =
       read({.node = "4\n0 0 0 0\n1 1 0 0\n2 0 1 0\n3 0 0 1\n", .ele = "1\n0 0 1 2 3\n"});
