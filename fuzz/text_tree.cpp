@@ -62,7 +62,7 @@ struct TextTable {
 
 class TextTreeReader final : public Hdf5Reader {
  public:
-  explicit TextTreeReader(const InputFile& input) : name_(input.name()) {
+  explicit TextTreeReader(const InputFile& input) : Hdf5Reader(input.size()), name_(input.name()) {
     std::istringstream lines(std::string(input.begin(), input.size()));
     groups_.insert("/");
     for (std::string line; std::getline(lines, line);) read(line);

@@ -11,6 +11,9 @@
 #include <variant>
 #include <vector>
 
+#include <fmt/format.h>
+
+#include "kernel/formats/compression.h"
 #include "kernel/formats/input_file.h"
 #include "kernel/mesh_data.h"
 
@@ -53,6 +56,24 @@ class Hdf5Reader {
   virtual std::string text(const std::string& path, const char* attribute) const = 0;
 
   [[noreturn]] virtual void fail(const std::string& path, std::string_view reason) const = 0;
+
+ protected:
+  explicit Hdf5Reader(std::size_t file_size) : file_size_(file_size) {}
+
+  /// Numbers of a table that are about to be read. All that is read of a file has to be less than a
+  /// bomb: a table may be packed, and named again and again.
+  void take(const std::string& table, std::uint64_t count) const {
+    constexpr std::uint64_t kBytes = 8;  // of one, as it is kept
+    taken_ += kBytes * count;
+    if (!is_bomb(file_size_, taken_)) return;
+    fail(table, fmt::format("with it the tables have {} bytes in all, more than 200 times those "
+                            "of the file: they are not read",
+                            taken_));
+  }
+
+ private:
+  std::size_t file_size_;
+  mutable std::uint64_t taken_ = 0;
 };
 
 /// The bytes of `file` must stay. @param format what messages call the format: "MED"

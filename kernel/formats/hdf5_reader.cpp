@@ -21,7 +21,7 @@ constexpr std::uint64_t kMostUnpacked = 1100;
 class MemoryReader final : public Hdf5Reader {
  public:
   MemoryReader(const InputFile& input, std::string_view format)
-      : input_(input), file_(open(input), H5Fclose) {
+      : Hdf5Reader(input.size()), input_(input), file_(open(input), H5Fclose) {
     if (input.size() == 0) {
       input.fail_at_byte(input.begin(), "the file is empty: expected a file of HDF5");
     }
@@ -102,6 +102,7 @@ class MemoryReader final : public Hdf5Reader {
       if (width != 1) width = 0;
     }
     if (width == 0) fail(path, "the table holds no texts");
+    take(path, table.count * width / 8);
     std::string all(table.count * width, '\0');
     if (!all.empty() && H5Dread(table.set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, all.data()) < 0) {
       fail(path, "the table cannot be read");
@@ -232,6 +233,7 @@ class MemoryReader final : public Hdf5Reader {
     const Hdf5Handle type(H5Dget_type(table.set), H5Tclose);
     const H5T_class_t kind = H5Tget_class(type);
     if (kind != H5T_INTEGER && kind != H5T_FLOAT) fail(path, "the table holds no numbers");
+    take(path, table.count);
     std::vector<Number> all(table.count);
     if (all.empty()) return all;
     const Hdf5Handle from(H5Dget_space(table.set), H5Sclose);

@@ -53,7 +53,8 @@ struct NetcdfTable {
 
 class ClassicReader final : public Hdf5Reader {
  public:
-  explicit ClassicReader(const InputFile& input) : input_(input), bytes_(input) {
+  explicit ClassicReader(const InputFile& input)
+      : Hdf5Reader(input.size()), input_(input), bytes_(input) {
     bytes_.set_swap(std::endian::native == std::endian::little);
     read_header();
   }
@@ -93,6 +94,7 @@ class ClassicReader final : public Hdf5Reader {
     const NetcdfTable& from = table(path);
     if (from.type != nc_char || from.extents.empty()) fail(path, "the table holds no texts");
     const auto width = static_cast<std::size_t>(from.extents.back());
+    take(path, from.steps * from.count() / 8);
     std::string all;
     each_step(from, [&](const char* begin, std::uint64_t count) { all.append(begin, count); });
     return text_rows(all, width);
@@ -317,6 +319,7 @@ class ClassicReader final : public Hdf5Reader {
   std::vector<Number> numbers(const std::string& path, const NetcdfTable& from) const {
     if (from.type == nc_char) fail(path, "the table holds no numbers");
     std::vector<Number> all;
+    take(path, from.steps * from.count());
     all.reserve(static_cast<std::size_t>(from.steps * from.count()));
     each_step(from, [&](const char* begin, std::uint64_t count) {
       for (std::uint64_t i = 0; i < count; ++i) {

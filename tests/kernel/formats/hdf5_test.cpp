@@ -33,3 +33,20 @@ TEST_CASE("rows of texts end at the first zero, and without blanks") {
   CHECK(text_rows("", 4).empty());
   CHECK(text_rows("abc", 0).empty());
 }
+
+TEST_CASE("a table of HDF5 that is named again and again counts each time") {
+  if (!has_hdf5()) return;
+  const TempFolder folder;
+  const std::filesystem::path path = folder / "a.h5";
+  {
+    const auto made = make_hdf5("a.h5", "HDF5");
+    made->write("list", std::vector<double>(1000, 0.5));
+    write_text(path, made->bytes());
+  }
+  const InputFile input(path);
+  const auto file = open_hdf5(input, "HDF5");
+  constexpr int kFree = 1048;  // times 8,000 bytes: less than 8 MB
+  for (int k = 0; k < kFree; ++k) CHECK(file->reals("list").size() == 1000);
+  CHECK_THROWS_WITH_AS(static_cast<void>(file->values("list")),
+                       doctest::Contains("more than 200 times"), Error);
+}
