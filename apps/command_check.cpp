@@ -12,12 +12,14 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 #include <tetmend/check.h>
+#include <tetmend/improve.h>
 #include <tetmend/io.h>
 #include <tetmend/option_text.h>
 #include <tetmend/rulers.h>
 
 #include "apps/commands.h"
 #include "apps/files.h"
+#include "apps/improve_options.h"
 #include "apps/mesh_formats.h"
 #include "apps/number_check.h"
 #include "apps/standard_streams.h"
@@ -34,6 +36,7 @@ struct Options {
   std::vector<std::filesystem::path> more;
   bool each = false;  ///< the meshes are not compared
   CheckOptions wanted;
+  tetmend::Options run;               ///< its goal alone
   std::vector<std::string> measures;  ///< NAME=VALUE
   bool json = false;
   std::string format;
@@ -122,7 +125,7 @@ std::vector<Fact> facts_of(Options& options, const pieces::ArrayFiles* parts) {
   try {
     if (!options.improved.empty()) {
       Mesh improved = load_to_check(options, options.improved, parts);
-      facts = compare(mesh, improved, wanted.threads, wanted.preset);
+      facts = compare(mesh, improved, wanted.threads, wanted.preset, options.run.goal);
       mesh = std::move(improved);
     }
     if (wanted.asks()) {
@@ -252,6 +255,7 @@ void add_check_options(CLI::App& command, Options& options) {
       ->take_all();
   command.add_option("--for", options.wanted.preset, "What a solver asks, see below")
       ->type_name("PRESET");
+  add_goal_option(command, options.run);
   command.add_flag("--json", options.json,
                    "Print JSON (docs/check.schema.json); of several meshes a line each");
   add_format_option(command, options.format);
@@ -269,9 +273,10 @@ void add_check(CLI::App& app, Invocation& invocation) {
 surface, bit for bit, the same faces between labels, named triangles and groups,
 the same other elements with all that tets share with them, the same volume of
 each label, no inverted tet, no smaller theta_min, no larger theta_max unless
-the goal allows it, not more bad tets. Where inverted tets were mended, these
-two angles are shown and not asked for. Thresholds are then asked of OUT, and
---for explicit or implicit that OUT is no dearer to solve on than FILE.
+the goal allows it, not more bad tets: those of --goal, if the run had one.
+Where inverted tets were mended, these two angles are shown and not asked for.
+Thresholds are then asked of OUT, and --for explicit or implicit that OUT is no
+dearer to solve on than FILE.
 
 Of three meshes and more, or with --each, thresholds and --for are asked of each
 one: a line each with what fails, one for the worst, and its status.

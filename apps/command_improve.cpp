@@ -46,13 +46,15 @@ const std::filesystem::path& would_be(const ImproveOptions& options) {
 }
 
 /// What would stop the run at its end is better found at its beginning.
-void check_files(const ImproveOptions& options, const pieces::ArrayFiles* known) {
+void check_files(const ImproveOptions& options, const Invocation& invocation) {
+  const pieces::ArrayFiles* const known = invocation.array_files;
   check_formats(options.input, would_be(options), options.carry, known);
   for (const std::filesystem::path& report : options.reports) {
     check_extension(report, kReportExtensions);
   }
   std::vector<NamedFile> inputs = files_of_options(options.run);
   inputs.insert(inputs.begin(), {"IN", options.input, NamedFile::Kind::mesh, true});
+  inputs.push_back({"options of the folder", invocation.folder_file});
   std::vector<NamedFile> outputs;
   for (const std::filesystem::path& report : options.reports)
     outputs.push_back({"--report", report});
@@ -252,7 +254,7 @@ int run_improve(ImproveOptions& options, Invocation& invocation) {
   if (!has_output && !options.dry_run) throw UsageError("--output: OUT is missing");
   name_streams(options.format, options.input, has_output ? &options.output : nullptr);
   const bool is_first = invocation.ranks == nullptr || invocation.ranks->is_first();
-  if (is_first) check_files(options, invocation.array_files);
+  if (is_first) check_files(options, invocation);
   complete(options);
   if (options.dry_run) return run_dry(options, invocation);
   check_reports(options, invocation);
@@ -278,13 +280,15 @@ int run_improve(ImproveOptions& options, Invocation& invocation) {
   if (report.result.ending == Ending::cancelled) {
     return complain(kInterrupted, "interrupted: wrote the mesh as improved so far");
   }
-  const std::size_t n_bad = report.result.after.n_bad;
-  if (!options.goal.empty() && n_bad > 0) {
-    return complain(kGoalMissed,
-                    fmt::format("the goal {} is missed by {} {}: wrote the mesh", options.goal,
-                                grouped(n_bad), n_bad == 1 ? "tet" : "tets"));
-  }
-  return kSuccess;
+  return goal_status(options, report.result);
+}
+
+int goal_status(const ImproveOptions& options, const Result& result) {
+  const std::size_t n_bad = result.after.n_bad;
+  if (options.goal.empty() || n_bad == 0) return kSuccess;
+  return complain(kGoalMissed,
+                  fmt::format("the goal {} is missed by {} {}: wrote the mesh", options.goal,
+                              grouped(n_bad), n_bad == 1 ? "tet" : "tets"));
 }
 
 void add_improve(CLI::App& app, Invocation& invocation) {

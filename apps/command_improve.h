@@ -11,4 +11,7 @@ namespace tetmend::apps {
 /// @throws UsageError, Error
 int run_improve(ImproveOptions& options, Invocation& invocation);
 
+/// Of a run that wrote its mesh: kGoalMissed, which is told, where tets miss a goal that was asked for.
+int goal_status(const ImproveOptions& options, const Result& result);
+
 }  // namespace tetmend::apps

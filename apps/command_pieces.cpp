@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <tetmend/option_text.h>
 
+#include "apps/command_improve.h"
 #include "apps/commands.h"
 #include "apps/files.h"
 #include "apps/help_formatter.h"
@@ -110,6 +111,7 @@ int split(PiecesOptions& options, Invocation& invocation) {
   files.output = improve.output;
   files.label_array = improve.carry.label_array;
   files.variant = improve.carry.variant;
+  files.asks_for_goal = !improve.goal.empty();
   files.tell_lost = [&](const std::vector<std::string>& lost) {
     tell_lost(improve.input, lost, improve.carry, notes);
   };
@@ -215,14 +217,17 @@ int join(PiecesOptions& options, Invocation& invocation) {
   }
   improve.input = run.saved().input;
   improve.output = run.saved().output;
-  for (const auto& [name, value] : run.saved().options) set_option(improve.run, name, value);
+  for (const auto& [name, value] : run.saved().options) {
+    set_option(improve.run, name, value);
+    if (name == "goal" && run.saved().asks_for_goal) improve.goal = value;
+  }
   ImproveReport report{.arguments = invocation.arguments, .options = improve};
   report.result = *result;
   report.portrait = std::move(portrait);
   report.peak_memory = platform::peak_memory();
   write_reports(improve.reports, report);
   if (!improve.quiet) say(stdout, format_outcome(report));
-  return kSuccess;
+  return goal_status(improve, report.result);
 }
 
 int run_pieces(PiecesOptions& options, Invocation& invocation) {
@@ -300,7 +305,8 @@ Examples:
   tetmend pieces join work                 begins the next round, or writes OUT
 
 Exit status: 0 success, 1 the work failed, or join finds that a piece is
-missing, 2 wrong usage, 4 interrupted: the pieces that were finished are kept)");
+missing, 2 wrong usage, 3 the last join wrote OUT, and tets miss the goal that
+'split' was given, 4 interrupted: the pieces that were finished are kept)");
   command->callback([options, &invocation] {
     invocation.action = [options, &invocation] { return run_pieces(*options, invocation); };
   });

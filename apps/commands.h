@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <string>
 #include <string_view>
@@ -36,10 +37,11 @@ int complain(Status status, std::string_view message) noexcept;
 
 /// What the user asked for. The parser fills in the action; main runs it.
 struct Invocation {
-  std::vector<std::string> arguments;  ///< without the name of the program
-  std::function<int()> action;         ///< returns the exit status; @throws Error, UsageError
-  bool wrote_files = false;            ///< then what was said besides is not what counts
-  Ranks* ranks = nullptr;              ///< that all run the same command; null: it is alone
+  std::vector<std::string> arguments;      ///< without the name of the program
+  std::function<int()> action;             ///< returns the exit status; @throws Error, UsageError
+  std::filesystem::path folder_file = {};  ///< with options of the run; empty: none
+  bool wrote_files = false;                ///< then what was said besides is not what counts
+  Ranks* ranks = nullptr;                  ///< that all run the same command; null: it is alone
   const pieces::ArrayFiles* array_files = nullptr;  ///< of formats that only they know; null: none
   std::uint64_t first_vertex_id = 0;                ///< in pieces; cannot show: for tests of that
 };

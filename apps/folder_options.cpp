@@ -158,10 +158,8 @@ class FolderFile {
 };
 
 /// The file is read as it is, wherever it is.
-std::ifstream open_folder_file() {
-  const std::filesystem::path path(kFolderFile);
+std::ifstream open_folder_file(const std::filesystem::path& path) {
   std::error_code error;
-  if (!std::filesystem::exists(path, error)) return {};
   std::ifstream file(path);
   if (std::filesystem::is_directory(path, error) || !file) {
     throw Error(fmt::format("{}: it cannot be read; --no-config does without it", kFolderFile));
@@ -171,14 +169,21 @@ std::ifstream open_folder_file() {
 
 }  // namespace
 
-std::vector<FolderOption> folder_options(const CLI::App& app) {
+std::filesystem::path folder_file(const CLI::App& app) {
   const auto chosen = app.get_subcommands();
   if (chosen.empty()) return {};
-  const CLI::App& command = *chosen.front();
-  const CLI::Option* const no_config = command.get_option_no_throw("--no-config");
+  const CLI::Option* const no_config = chosen.front()->get_option_no_throw("--no-config");
   if (no_config == nullptr || no_config->count() > 0) return {};
-  std::ifstream file = open_folder_file();
-  FolderFile folder(app, command);
+  std::error_code error;
+  const std::filesystem::path path(kFolderFile);
+  return std::filesystem::exists(path, error) ? path : std::filesystem::path();
+}
+
+std::vector<FolderOption> folder_options(const CLI::App& app) {
+  const std::filesystem::path path = folder_file(app);
+  if (path.empty()) return {};
+  std::ifstream file = open_folder_file(path);
+  FolderFile folder(app, *app.get_subcommands().front());
   std::size_t number = 0;
   for (std::string line; std::getline(file, line);) {
     ++number;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <filesystem>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -20,6 +21,10 @@ struct FolderOption {
   std::size_t line = 0;  ///< from 1
   std::string argument;  ///< "--goal=35"
 };
+
+/// The file, where there is one and the command reads it; else empty.
+/// @param app has parsed the command line
+std::filesystem::path folder_file(const CLI::App& app);
 
 /// What the file adds to the command line, in its order. Left out are options that the command line
 /// has or excludes, and those that do nothing there: of another command, or without an option that they need.

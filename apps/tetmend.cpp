@@ -183,6 +183,7 @@ void take_folder_options(Invocation& invocation) {
   } catch (const CLI::ParseError&) {
     return;  // help, or a mistake that is found again, and told
   }
+  invocation.folder_file = folder_file(*app);
   const std::vector<FolderOption> more = folder_options(*app);
   if (more.empty()) return;
   const CLI::App& command = *app->get_subcommands().front();

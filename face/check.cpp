@@ -662,7 +662,7 @@ std::vector<Fact> check(const Mesh& mesh, const CheckOptions& options) {
 }
 
 std::vector<Fact> compare(const Mesh& first, const Mesh& second, int threads,
-                          std::string_view name_of_preset) {
+                          std::string_view name_of_preset, const Goal& goal) {
   const Preset* const preset = find_preset(name_of_preset);
   const Scale scale = scale_of(first);
   scale_of(second);  // or an error
@@ -689,14 +689,14 @@ std::vector<Fact> compare(const Mesh& first, const Mesh& second, int threads,
     facts.push_back(same("mid_nodes", "mid-side nodes of edges that stay", nodes,
                          fixed_mid_nodes(after, &nodes)));
   }
-  const Measurement then = measure(first, {.threads = threads});
-  const Measurement now = measure(second, {.threads = threads});
+  const Measurement then = measure(first, {.goal = goal, .threads = threads});
+  const Measurement now = measure(second, {.goal = goal, .threads = threads});
   if (then.curved && now.curved) add_second_order(*then.curved, *now.curved, facts);
   const MeshStatistics& was = then.statistics;
   const MeshStatistics& is = now.statistics;
   for (Fact angle : {at_least("theta_min", "smallest dihedral angle", is.theta_min, was.theta_min),
                      at_most("theta_max", "largest dihedral angle", is.theta_max,
-                             std::max(was.theta_max, Goal().max_angle))}) {
+                             std::max(was.theta_max, goal.max_angle))}) {
     if (is_mended && !angle.holds) {
       angle.holds = true;
       angle.text += "; not asked for where inverted tets were mended, which goes first";

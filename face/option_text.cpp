@@ -84,6 +84,10 @@ std::uint64_t read_size(std::string_view text) {
       count > std::uint64_t{1} << 50) {
     throw Error(fmt::format("'{}' is not a size such as 500M (K, M or G)", text));
   }
+  constexpr std::uint64_t kLeast = 1'000'000;  // no unit is forgotten behind as many
+  if (unit == 1 && count < kLeast) {
+    throw Error(fmt::format("{0} bytes are less than anything needs: is '{0}M' meant?", text));
+  }
   return count * unit;
 }
 

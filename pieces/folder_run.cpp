@@ -100,6 +100,7 @@ void FolderRun::split(const OutOfCore& files, const std::filesystem::path& folde
     saved.output = std::filesystem::absolute(files.output).string();
     saved.label_array = files.label_array;
     saved.variant = files.variant;
+    saved.asks_for_goal = files.asks_for_goal;
     saved.options = texts_of(options);
     saved.division = division;
     saved.run.is_divided = true;

@@ -40,6 +40,7 @@ struct OutOfCore {
   const ArrayFiles* array_files = nullptr;  ///< of formats that only they know; null: none
   std::string label_array = {};             ///< of the input, see read_mesh()
   std::string variant = {};                 ///< of the output, see MeshView::variant()
+  bool asks_for_goal = false;               ///< whoever began a run of tasks named a goal
   /// First rank: told what of the input will not be in the output, a sentence each; may throw.
   std::function<void(const std::vector<std::string>&)> tell_lost = {};
   RunCosts* costs = nullptr;           ///< null, or where they are put

@@ -24,7 +24,7 @@ constexpr std::string_view kMadeFolder = "tetmend made this folder\n";
 
 /// What a file of this version begins with.
 std::string signature() {
-  return fmt::format("tetmend {}: a run in pieces, 10\n", version());
+  return fmt::format("tetmend {}: a run in pieces, 11\n", version());
 }
 
 void append(const SavedRun& saved, std::string& bytes) {
@@ -36,6 +36,7 @@ void append(const SavedRun& saved, std::string& bytes) {
   put(saved.holds_more, bytes);
   put(saved.label_array, bytes);
   put(saved.variant, bytes);
+  put(saved.asks_for_goal, bytes);
   put(std::uint64_t{saved.options.size()}, bytes);
   for (const auto& [name, value] : saved.options) {
     put(name, bytes);
@@ -105,6 +106,7 @@ SavedRun take_run(std::string_view bytes) {
   take(bytes, saved.holds_more);
   take(bytes, saved.label_array);
   take(bytes, saved.variant);
+  take(bytes, saved.asks_for_goal);
   std::uint64_t count = 0;
   take(bytes, count);
   for (std::uint64_t i = 0; i < count; ++i) {

@@ -37,6 +37,7 @@ struct SavedRun {
   bool holds_more = false;     ///< it has more than labels and constraints
   std::string label_array;     ///< see read_mesh()
   std::string variant;         ///< of the output
+  bool asks_for_goal = false;  ///< whoever began the run named a goal
   OptionTexts options;
   Division division;
   Measured before;

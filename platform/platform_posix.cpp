@@ -535,7 +535,9 @@ class ElfFile {
     const std::vector<Head> head = read<Head>(0, 1);
     if (head.empty() || !is_library_of_this_machine(head[0])) return ConstantSearch::no_answer;
     segments_ = read<Segment>(head[0].e_phoff, head[0].e_phnum);
-    if (segments_.size() != head[0].e_phnum) return ConstantSearch::cut_off;
+    if (segments_.size() != head[0].e_phnum || !has_sections(head[0])) {
+      return ConstantSearch::cut_off;
+    }
     for (const Segment& segment : segments_) {
       const bool is_there =
           segment.p_type != PT_LOAD ||
@@ -551,6 +553,11 @@ class ElfFile {
   }
 
  private:
+  /// Their table is the end of most files: a copy that was cut lacks it first.
+  bool has_sections(const Head& head) const {
+    const std::uint64_t size = std::uint64_t{head.e_shnum} * head.e_shentsize;
+    return head.e_shoff <= size_ && size <= size_ - head.e_shoff;
+  }
   /// Empty when the file has not so much.
   template <class Row>
   std::vector<Row> read(std::uint64_t at, std::uint64_t count) {

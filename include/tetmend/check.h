@@ -9,6 +9,7 @@
 #include <variant>
 #include <vector>
 
+#include <tetmend/goal.h>
 #include <tetmend/mesh.h>
 
 namespace tetmend {
@@ -34,6 +35,7 @@ struct CheckOptions {
   std::vector<std::pair<std::string, double>> measure = {};
   std::string preset = {};  ///< what a solver or a use asks, see check_presets(); empty: none
   int threads = 1;          ///< 1 to 1024
+  Goal goal = {};           ///< of the run, for compare(): tets that miss it are bad
 
   /// Whether there is anything to look at.
   bool asks() const {
@@ -51,9 +53,10 @@ TETMEND_API std::vector<Fact> check(const Mesh& mesh, const CheckOptions& option
 /// worse. Looks at the two meshes alone: it knows nothing of the run.
 /// @param preset  a use that it must suit as well as before: "explicit", "implicit"; others add no
 /// facts
+/// @param goal  of the run, if there was one: what of it is no worse depends on which tets are bad
 /// @throws Error as measure(); OptionError for an unknown preset ("for"). Cost: n log n.
 TETMEND_API std::vector<Fact> compare(const Mesh& before, const Mesh& after, int threads = 1,
-                                      std::string_view preset = {});
+                                      std::string_view preset = {}, const Goal& goal = {});
 
 /// What one solver, or one use, asks of a mesh.
 struct CheckPreset {

@@ -118,7 +118,8 @@ TEST_CASE("of a wrong value the command line says what the library says") {
                                                          {"trace-depth", "-1"},
                                                          {"trace-depth", "1001"},
                                                          {"trace-limit", "5Q"},
-                                                         {"trace-limit", "0"}};
+                                                         {"trace-limit", "0"},
+                                                         {"trace-limit", "500"}};
   const TempFolder folder;
   for (const auto& entry : wrong) {
     const std::string& name = entry[0];

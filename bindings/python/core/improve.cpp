@@ -141,7 +141,9 @@ py::dict measure_mesh(const Mesh& mesh, const std::vector<std::string>& measures
 py::list check_mesh(const Mesh& mesh, const Mesh* improved, const CheckOptions& options) {
   std::vector<Fact> facts;
   run_detached([&] {
-    if (improved != nullptr) facts = compare(mesh, *improved, options.threads, options.preset);
+    if (improved != nullptr) {
+      facts = compare(mesh, *improved, options.threads, options.preset, options.goal);
+    }
     if (!options.asks()) return;
     for (Fact& fact : check(improved != nullptr ? *improved : mesh, options)) {
       facts.push_back(std::move(fact));
@@ -198,12 +200,13 @@ void add_improve(py::module_& module) {
       "check",
       [](const Mesh& mesh, const Mesh* improved, double min_dihedral, double max_dihedral,
          bool no_inverted, const std::vector<std::pair<std::string, double>>& measure,
-         const std::string& preset, int threads) {
+         const std::string& preset, int threads, const Settings& settings) {
         return check_mesh(mesh, improved,
-                          {min_dihedral, max_dihedral, no_inverted, measure, preset, threads});
+                          {min_dihedral, max_dihedral, no_inverted, measure, preset, threads,
+                           to_options(settings).goal});
       },
       "mesh"_a, "improved"_a.none(true), "min_dihedral"_a, "max_dihedral"_a, "no_inverted"_a,
-      "measure"_a, "preset"_a, "threads"_a);
+      "measure"_a, "preset"_a, "threads"_a, "settings"_a);
   module.def("check_presets", [] {
     std::vector<std::pair<std::string, std::string>> made;
     for (const CheckPreset& each : check_presets()) made.emplace_back(each.name, each.source);
