@@ -114,6 +114,16 @@ class CommandLine(unittest.TestCase):
         wrong = self.run_program("quality", SHEET, "--goal", "80,90")
         self.assertEqual((wrong.returncode, "is no goal" in wrong.stderr), (2, True))
 
+    def test_check_goes_by_the_goal_of_the_run(self) -> None:
+        self.run_program("improve", SHEET, "-o", "o.mesh", "--goal", "10,170", "-q")
+        facts = [json.loads(self.run_program("check", "o.mesh", SHEET, "--json", *goal).stdout)["facts"]
+                 for goal in ([], ["--goal", "10,170"])]
+        counts = [next(fact for fact in each if fact["name"] == "n_bad") for each in facts]
+        self.assertEqual(counts[1]["wanted"], 0)
+        self.assertLess(counts[1]["value"], counts[0]["value"])
+        self.assertEqual(self.run_program("check", SHEET, "o.mesh", "--goal", "10,170").returncode, 0)
+        self.assertEqual(self.run_program("check", SHEET, "o.mesh", "--goal", "x").returncode, 2)
+
     def test_convert_makes_the_folder_and_can_be_silent(self) -> None:
         done = self.run_program("convert", SHEET, TWO, "--to", "vtu", "--into", "a/b", "-q")
         self.assertEqual((done.returncode, done.stdout), (0, ""))
@@ -210,6 +220,30 @@ class CommandLine(unittest.TestCase):
         told, found = said("--no-config")
         self.assertEqual((told, found["goal"]["min_angle"], found["schedule"]), ("", 30, "shell"))
         self.assertEqual(self.run_program("quality", TWO).stderr, "")
+
+    def test_a_file_with_options_of_the_folder_is_no_output(self) -> None:
+        options = self.folder / "tetmend.conf"
+        options.write_text("goal = 20\n")
+        for words in [("--trace", "tetmend.conf"), ("--goal", "25", "--trace", "./tetmend.conf")]:
+            done = self.run_program("improve", TWO, "-o", "o.mesh", *words)
+            self.assertEqual((done.returncode, options.read_text()), (2, "goal = 20\n"))
+            self.assertIn("options of the folder and --trace would be the same file", done.stderr)
+        done = self.run_program("improve", TWO, "-o", "o.mesh", "--no-config", "--trace", "tetmend.conf")
+        self.assertEqual((done.returncode, options.read_bytes()[:7]), (0, b"TETTRAC"))
+
+    def test_tasks_end_with_the_status_of_a_run_in_pieces(self) -> None:
+        for goal, status in [(("--goal", "40,130"), 3), (("--goal", "1,179"), 0), ((), 0)]:
+            with self.subTest(goal=goal):
+                done = self.run_program("improve", TWO, "-o", "a.mesh", "--pieces", "2", "-q", *goal)
+                self.assertEqual(done.returncode, status)
+                work = self.folder / f"work{len(goal)}{status}"
+                self.run_program("pieces", "split", work, TWO, "-o", "b.mesh", "--pieces", "2", "-q", *goal)
+                joined = done
+                while not json.loads((work / "plan.json").read_text())["finished"]:
+                    self.assertEqual(self.run_program("pieces", "improve", work, "-q").returncode, 0)
+                    joined = self.run_program("pieces", "join", work, "-q")
+                self.assertEqual((joined.returncode, joined.stderr), (done.returncode, done.stderr))
+                self.assertEqual((self.folder / "a.mesh").read_bytes(), (self.folder / "b.mesh").read_bytes())
 
     def test_a_wrong_line_of_the_folder_is_told_with_its_place(self) -> None:
         for text, reason in [("gaol = 20", "tetmend.conf:1: improve has no option 'gaol': did you mean 'goal'?"),

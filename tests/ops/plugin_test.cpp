@@ -111,24 +111,17 @@ TEST_CASE("a relative name is a file of the current folder, not of the linker's"
   CHECK(load_plugin(relative, registry).operators.size() == 1);
 }
 
-TEST_CASE("a library that was cut is refused, or sound: loading it does not crash") {
+TEST_CASE("a library that was cut is refused, wherever it was") {
   const TempFolder folder;
   const std::string whole = read_text(plugin_file("sound"));
-  std::size_t refused = 0;
   constexpr std::size_t kCuts = 40;
-  for (std::size_t i = 0; i < kCuts; ++i) {
+  for (std::size_t i = 0; i <= kCuts; ++i) {
     CAPTURE(i);
     const std::string file =
         (folder / (std::to_string(i) + ".so")).string();  // what is loaded stays
-    write_text(file, std::string_view(whole).substr(0, whole.size() * i / kCuts));
-    Registry registry;
-    try {
-      load_plugin(file, registry);  // its segments are there
-    } catch (const Error& error) {
-      CHECK(contains(error.what(), file + ": cannot be loaded as a plugin: "));
-      ++refused;
-    }
-    if (2 * i <= kCuts) CHECK(refused == i + 1);
+    const std::size_t size = i == kCuts ? whole.size() - 1 : whole.size() * i / kCuts;
+    write_text(file, std::string_view(whole).substr(0, size));
+    CHECK(contains(complaint_about(file), file + ": cannot be loaded as a plugin: "));
   }
   const std::string half = (folder / "half.so").string();
   write_text(half, std::string_view(whole).substr(0, whole.size() / 2));
