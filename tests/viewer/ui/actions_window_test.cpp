@@ -177,7 +177,6 @@ TEST_CASE("two runs stand side by side by a key and a name") {
   wait_until_still();
   Hand hand;
   hand.key("ctrl+b");
-  wait_until_still();  // the dialog
   type("type " + other);
   hand.key("Return");
   CHECK(hand.actions <= 2);
