@@ -9,6 +9,17 @@
 
 namespace tetmend::formats {
 
+namespace {
+
+/// "e-05" is "e-5", "e+10" is "e10".
+std::string with_short_exponent(const std::string& text) {
+  const std::size_t e = text.find('e');
+  if (e == std::string::npos) return text;
+  return fmt::format("{}e{}", text.substr(0, e), std::stoi(text.substr(e + 1)));
+}
+
+}  // namespace
+
 std::string lsdyna_real(double value, std::size_t room) {
   std::string text = fmt::format("{}", value);
   if (text.size() <= room) return text;
@@ -21,13 +32,9 @@ std::string lsdyna_real(double value, std::size_t room) {
   std::array<char, 40> memory{};
   const auto [end, error] = std::to_chars(memory.data(), memory.data() + memory.size(), value,
                                           std::chars_format::scientific);
-  text.assign(memory.data(), end);
-  const std::size_t e = text.find('e');
-  // "e-05" is "e-5", "e+10" is "e10".
-  const int exponent = std::stoi(text.substr(e + 1));
-  text = fmt::format("{}e{}", text.substr(0, e), exponent);
+  text = with_short_exponent(std::string(memory.data(), end));
   for (int digits = 17; text.size() > room && digits > 0; --digits) {
-    text = fmt::format("{:.{}g}", value, digits);
+    text = with_short_exponent(fmt::format("{:.{}g}", value, digits));
   }
   // The largest numbers may be rounded out of the range of a double.
   double again = 0;

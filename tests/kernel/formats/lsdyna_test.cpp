@@ -9,6 +9,8 @@
 #include <fmt/format.h>
 
 #include "kernel/formats/deck_remarks.h"
+#include "kernel/formats/lsdyna_fields.h"
+#include "kernel/formats/nastran_card.h"
 #include "tests/kernel/formats/damage.h"
 #include "tests/kernel/formats/fixtures.h"
 
@@ -478,6 +480,20 @@ TEST_CASE("numbers of LS-DYNA that are wider than their fields are written betwe
   CHECK(again.point_numbers == mesh.point_numbers);
   CHECK(again.tet_numbers == mesh.tet_numbers);
   CHECK(again.groups == mesh.groups);
+}
+
+TEST_CASE("a number of LS-DYNA that is rounded to its field is not rounded again") {
+  for (const double value :
+       {-9223372036854775.0, 1.2345678901234567e-5, -1.2345678901234567e-5, 1.7976931348623157e308,
+        -123456.78901234567, 1.0 / 3, 1e22 / 7, -4.9406564584124654e-324}) {
+    const std::string text = formats::lsdyna_real(value, 16);
+    CAPTURE(text);
+    CHECK(text.size() <= 16);
+    double again = 0;
+    REQUIRE(formats::nastran_real(text, again));
+    CHECK(again == doctest::Approx(value).epsilon(1e-8));
+    CHECK(formats::lsdyna_real(again, 16) == text);
+  }
 }
 
 TEST_CASE("a node of LS-DYNA that is held comes back where its line is no line of fixed fields") {
