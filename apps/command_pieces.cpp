@@ -243,13 +243,8 @@ int run_pieces(PiecesOptions& options, Invocation& invocation) {
   return join(options, invocation);
 }
 
-}  // namespace
-
-void add_pieces(CLI::App& app, Invocation& invocation) {
-  const auto options = std::make_shared<PiecesOptions>();
-  CLI::App* command =
-      app.add_subcommand("pieces", "Improve a mesh in pieces, by tasks over the files of a folder");
-  command->add_option("STEP", options->step, "split, improve or join")
+void add_steps(CLI::App& command, PiecesOptions& options) {
+  command.add_option("STEP", options.step, "split, improve or join")
       ->required()
       ->type_name("")
       ->check(CLI::Validator(
@@ -259,28 +254,37 @@ void add_pieces(CLI::App& app, Invocation& invocation) {
                           : fmt::format("'{}' is none of split, improve, join", step);
           },
           ""));
-  command->add_option("FOLDER", options->folder, "Folder of the run; new for split")
+  command.add_option("FOLDER", options.folder, "Folder of the run; new for split")
       ->required()
       ->type_name("");
   command
-      ->add_option(
-          "MORE", options->more,
+      .add_option(
+          "MORE", options.more,
           "split: the mesh. improve: numbers of pieces\n(default: all that are not finished)")
       ->type_name("");
   command
-      ->add_option("-o,--output", options->improve.output,
-                   "split: file for the improved mesh, which the\nlast join writes")
+      .add_option("-o,--output", options.improve.output,
+                  "split: file for the improved mesh, which the\nlast join writes")
       ->type_name("OUT");
   command
-      ->add_option("--pieces", options->improve.pieces.pieces,
-                   "split: into how many pieces, 2 to 65535;\nthe result depends on it")
+      .add_option("--pieces", options.improve.pieces.pieces,
+                  "split: into how many pieces, 2 to 65535;\nthe result depends on it")
       ->check(number_from(std::size_t{2}, std::size_t{65'535}))
       ->type_name("N");
   command
-      ->add_option("--share", options->share,
-                   "improve: of the pieces that are not finished\nthose whose number leaves I when "
-                   "divided by N")
+      .add_option("--share", options.share,
+                  "improve: of the pieces that are not finished\nthose whose number leaves I when "
+                  "divided by N")
       ->type_name("I/N");
+}
+
+}  // namespace
+
+void add_pieces(CLI::App& app, Invocation& invocation) {
+  const auto options = std::make_shared<PiecesOptions>();
+  CLI::App* command =
+      app.add_subcommand("pieces", "Improve a mesh in pieces, by tasks over the files of a folder");
+  add_steps(*command, *options);
   add_options_of_pieces(*command, options->improve);
   group_options(*command);
   command->footer(

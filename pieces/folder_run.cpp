@@ -63,6 +63,20 @@ class Tools {
   TaskOptions task_;
 };
 
+/// What a run is of, before anything is known of the mesh.
+SavedRun begun(const OutOfCore& files, const Options& options, const Division& division) {
+  SavedRun saved;
+  saved.input = std::filesystem::absolute(files.input).string();
+  saved.output = std::filesystem::absolute(files.output).string();
+  saved.label_array = files.label_array;
+  saved.variant = files.variant;
+  saved.asks_for_goal = files.asks_for_goal;
+  saved.options = texts_of(options);
+  saved.division = division;
+  saved.run.is_divided = true;
+  return saved;
+}
+
 }  // namespace
 
 FolderRun::FolderRun(const std::filesystem::path& folder, const ArrayFiles* array_files)
@@ -95,15 +109,7 @@ void FolderRun::split(const OutOfCore& files, const std::filesystem::path& folde
   face::on_threads(face::threads_of(options), [&] {
     Tools tools(options);
     OneRank ranks;
-    SavedRun saved;
-    saved.input = std::filesystem::absolute(files.input).string();
-    saved.output = std::filesystem::absolute(files.output).string();
-    saved.label_array = files.label_array;
-    saved.variant = files.variant;
-    saved.asks_for_goal = files.asks_for_goal;
-    saved.options = texts_of(options);
-    saved.division = division;
-    saved.run.is_divided = true;
+    SavedRun saved = begun(files, options, division);
     try {
       InputMesh mesh_file(files.input, ranks, files.array_files, files.label_array);
       if (!tools.plan().surface.is_fixed()) mesh_file.set_surface_moves();
