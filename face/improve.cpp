@@ -114,6 +114,7 @@ class Improvement {
     give_back();
     if (!options_.maps) result_.vertex_map = result_.tet_map = {};
     watcher_.rethrow();
+    if (!options_.rulers) result_.rulers_before = result_.rulers_after = std::nullopt;
     return std::move(result_);
   }
   /// After run(). Null: nothing was recorded.
@@ -281,10 +282,11 @@ void Improvement::measure_before() {
            "file?"});
     }
   }
-  if (options_.rulers) {
-    result_.rulers_before = diagonals_ ? measure_rulers(mesh_, *diagonals_, cg_steps())
-                                       : measure_rulers(mesh_, cg_steps());
-    if (figures_ == face::Figures::all) lengths_ = face::LocalLengths(mesh_, vertices_before_);
+  // Whoever asks for them or not: the promises are held to them.
+  result_.rulers_before = diagonals_ ? measure_rulers(mesh_, *diagonals_, cg_steps())
+                                     : measure_rulers(mesh_, cg_steps());
+  if (options_.rulers && figures_ == face::Figures::all) {
+    lengths_ = face::LocalLengths(mesh_, vertices_before_);
   }
   surface_before_ = result_.surface_fingerprint_before = surface_fingerprint(mesh_);
   if (!plan_.surface.is_fixed())
@@ -350,10 +352,9 @@ void Improvement::measure_after() {
   watcher_.begin(Stage::measuring);
   const Stopwatch watch(result_.measuring);
   result_.after = compute_statistics(mesh_, options_.goal);
-  if (options_.rulers) {
-    result_.rulers_after = measure_rulers(mesh_, cg_steps());
-    if (figures_ == face::Figures::all)
-      result_.size_drift = lengths_.drift_to(lengths_.renewed(mesh_));
+  result_.rulers_after = measure_rulers(mesh_, cg_steps());
+  if (options_.rulers && figures_ == face::Figures::all) {
+    result_.size_drift = lengths_.drift_to(lengths_.renewed(mesh_));
   }
   if (curved_edges_) result_.curved_after = curved_edges_->statistics(mesh_);
   if (plan_.sizes.are_wanted()) result_.sizes_after = face::size_statistics(mesh_);

@@ -547,3 +547,20 @@ TEST_CASE("two threads improve a mesh each at the same time") {
   CHECK(equal(a, alone));
   CHECK(equal(b, alone));
 }
+
+TEST_CASE("a run that nobody asks for rulers keeps to them, too: its mesh is the same") {
+  Mesh with = load(TETMEND_SOURCE_DIR "/tests/face/inverted_at_labels.mesh");
+  Mesh without = with;
+  Options options;
+  options.keep_size = true;
+  options.measure = "sine";
+  const Result result = improve(with, options);
+  CHECK(result.rulers_after.has_value());
+  // Without rulers nobody would see it.
+  CHECK(std::any_of(result.notes.begin(), result.notes.end(), [](const std::string& note) {
+    return note.starts_with("went back") && note.find("a worst mean ratio") != std::string::npos;
+  }));
+  options.rulers = false;
+  CHECK_FALSE(improve(without, options).rulers_after.has_value());
+  CHECK(equal(with, without));
+}
