@@ -301,7 +301,8 @@ int run_trace(const TraceOptions& options) {
     throw UsageError("--extract needs -o, a folder for the files");
   }
   check_outputs(options);
-  const TraceFile file(options.file);
+  const TraceCheck check = options.ledger ? TraceCheck::events : TraceCheck::mesh;
+  const TraceFile file(options.file, check);
   if (!file.damage().empty()) complain(kSuccess, "warning: " + file.damage());
   if (options.at) {
     write_mesh_at(options, file);

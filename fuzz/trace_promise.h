@@ -10,6 +10,7 @@ namespace tetmend::fuzz {
 
 /// An Error of one line, or a mesh after every event and no crash in what a user does with it.
 inline void require_error_or_sound_trace(const std::filesystem::path& file) {
+  test::ledger_of_events(file);
   try {
     const std::string findings = test::findings_in_trace(file);
     require(findings.empty(), findings);

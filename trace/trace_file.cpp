@@ -35,7 +35,8 @@ constexpr std::uint32_t kDeepest = 255;
 
 }  // namespace
 
-TraceFile::TraceFile(const std::filesystem::path& file) : path_(file), frames_(file) {
+TraceFile::TraceFile(const std::filesystem::path& file, TraceCheck check)
+    : path_(file), check_(check), frames_(file) {
   read();
 }
 
@@ -56,7 +57,8 @@ void TraceFile::read() {
   try {
     read_beginning();
     std::optional<TraceAudit> audit;
-    if (!has_start_ || standard_.is_own()) audit.emplace(mesh_);
+    const bool needs_mesh = !has_start_ || standard_.is_own();
+    if (check_ == TraceCheck::mesh && needs_mesh) audit.emplace(mesh_);
     read_chunks(audit ? &*audit : nullptr);
     if (audit) last_mesh_ = audit->take_mesh();
   } catch (const ByteReader::Damage& damage) {
@@ -159,7 +161,7 @@ void TraceFile::index_chunk(const std::vector<std::byte>& frame, TraceAudit* aud
     decoder.next(event);
     if (audit != nullptr) audit->follow(event);
     index_event(event);
-    if (!event.qualities.empty()) {
+    if (!event.qualities.empty() && check_ == TraceCheck::mesh) {
       if (audit == nullptr) throw ByteReader::Damage("qualities by a measure that was not there");
       note_qualities(event, audit->mesh());
     }
@@ -266,9 +268,9 @@ void TraceFile::end_call(const TraceEvent& event) {
   if (call.accepted()) accepted_.push_back({number, trials_.standing()});
 }
 
-/// Of the last edit that stands: the audit has seen that there is one. Whoever was accepted while
-/// it stood goes with it.
+/// Of the last edit that stands. Whoever was accepted while it stood goes with it.
 void TraceFile::undo() {
+  if (trials_.standing() == 0) throw ByteReader::Damage("an undo, and there is nothing to undo");
   trials_.undo(events_);
   for (; !accepted_.empty() && accepted_.back().edits > trials_.standing(); accepted_.pop_back()) {
     Call& call = calls_[accepted_.back().call];

@@ -97,6 +97,13 @@ struct ParameterChange {
   std::uint32_t text = 0;  ///< "smoothing: cycles = 3"; see TraceFile::name()
 };
 
+/// What is looked at when a trace is opened.
+enum class TraceCheck {
+  mesh,    ///< the mesh is followed through all events: the trace may be played
+  events,  ///< events are read alone, in a third of the time: there is no last mesh, and whether all
+           ///< before it are meshes stays open
+};
+
 /// Holds the compressed events and an index of them in memory: about 100 bytes a call.
 class TraceFile {
  public:
@@ -106,7 +113,7 @@ class TraceFile {
   /// @throws Error when the file cannot be read, is no trace, is of an unknown version, is damaged
   /// before the first event, or when an event makes no sense or no mesh: with byte, event and reason.
   /// Cost: linear; about 0.3 s for a million events.
-  explicit TraceFile(const std::filesystem::path& file);
+  explicit TraceFile(const std::filesystem::path& file, TraceCheck check = TraceCheck::mesh);
   /// The same, of bytes that TraceRecorder::so_far() gave. @param name what errors call it
   TraceFile(const std::string& name, std::string_view bytes);
   /// The same, of what a recorder of this program wrote without_mesh; `start` is the mesh that its
@@ -117,7 +124,7 @@ class TraceFile {
   const TraceHeader& header() const { return header_; }
   /// Before the first event.
   const SlotMesh& initial_mesh() const { return mesh_; }
-  /// After the last event. Null: events were not followed, as the mesh was given.
+  /// After the last event. Null: events were not followed, as the mesh was given or none was asked for.
   const SlotMesh* last_mesh() const { return last_mesh_ ? &*last_mesh_ : nullptr; }
   std::uint64_t event_count() const { return events_; }
   std::size_t file_size() const { return frames_.file_size(); }
@@ -170,6 +177,7 @@ class TraceFile {
   void note_quality(const SlotMesh& mesh, const TetVertices& tet, Quality quality);
 
   std::filesystem::path path_;
+  TraceCheck check_ = TraceCheck::mesh;
   FrameReader frames_;
   TraceHeader header_;
   bool has_start_ = false;  // mesh_ was given, by who made the events

@@ -11,11 +11,22 @@
 #include "kernel/tet_mesh.h"
 #include "trace/call_extract.h"
 #include "trace/call_tree.h"
+#include "trace/ledger.h"
 #include "trace/replay.h"
 #include "trace/trace_file.h"
 #include "trace/trace_summary.h"
 
 namespace tetmend::test {
+
+/// The ledger, for which events are read alone; nothing where that gives an error.
+inline std::string ledger_of_events(const std::filesystem::path& path) {
+  try {
+    const TraceFile file(path, TraceCheck::events);
+    return format_ledger(make_ledger(file));
+  } catch (const Error&) {
+    return "";
+  }
+}
 
 /// Opens, plays, sums up, prints and extracts. @throws Error as these do.
 inline void use_trace(const std::filesystem::path& path) {

@@ -59,6 +59,7 @@ int use_within_bounds(const std::filesystem::path& path) {
     const rlimit seconds{2, 2};
     ::setrlimit(RLIMIT_CPU, &seconds);
     try {
+      ledger_of_events(path);
       use_trace(path);
     } catch (const Error&) {
       ::_exit(0);
@@ -256,6 +257,7 @@ void write_forged(const TempFolder& folder, const std::vector<FrameContent>& beg
 
 /// Errors are allowed; a mesh that is none is not. True if the trace opened.
 bool is_error_or_sound(const std::filesystem::path& path) {
+  ledger_of_events(path);
   try {
     const std::string findings = findings_in_trace(path);
     REQUIRE_MESSAGE(findings.empty(), findings);
@@ -287,6 +289,8 @@ TEST_CASE("an event that does not fit the mesh is refused with byte, event and r
     const std::string message = complaint(folder / "forged");
     CHECK_MESSAGE(message.find(hostile.reason) != std::string::npos, message);
     CHECK(message.starts_with((folder / "forged").string() + ": byte "));
+    const bool is_undo = hostile.reason.find("nothing") != std::string_view::npos;
+    if (is_undo) CHECK(ledger_of_events(folder / "forged").empty());
   }
 }
 

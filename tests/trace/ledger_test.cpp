@@ -211,6 +211,13 @@ TEST_CASE("the calls of a cell are as many as it says, the nearest to being acce
   CHECK(calls_in(file, {"", {}, {}, true}).size() == make_ledger(file).all.refused().calls);
 }
 
+TEST_CASE("a ledger of events alone is that of a trace whose mesh was followed") {
+  const test::TracedBall trace;
+  const TraceFile events(trace.path(), TraceCheck::events);
+  CHECK(events.last_mesh() == nullptr);
+  CHECK(format_ledger(make_ledger(events)) == format_ledger(make_ledger(TraceFile(trace.path()))));
+}
+
 TEST_CASE("a ledger is written for people and for programs, with the same numbers") {
   const test::TracedBall trace;
   const TraceFile file(trace.path());
