@@ -27,10 +27,14 @@ namespace tetmend {
 /// Six times the signed volume of tet (a, b, c, d): (b-a) . ((c-a) x (d-a)). A valid tet has a
 /// positive value.
 inline double volume6(const Point& a, const Point& b, const Point& c, const Point& d) {
-  const Point u = b - a;
-  const Point v = c - a;
-  const Point w = d - a;
-  return u.dot(v.cross(w));
+  // By numbers: expressions of Eigen cost every source that includes this a fiftieth of its time.
+  const double ux = b[0] - a[0], uy = b[1] - a[1], uz = b[2] - a[2];
+  const double vx = c[0] - a[0], vy = c[1] - a[1], vz = c[2] - a[2];
+  const double wx = d[0] - a[0], wy = d[1] - a[1], wz = d[2] - a[2];
+  const double x = ux * (vy * wz - vz * wy);
+  const double y = uy * (vz * wx - vx * wz);
+  const double z = uz * (vx * wy - vy * wx);
+  return x + y + z;
 }
 
 /// x^(1/3) to the last bits, several times faster than std::cbrt. A third of the exponent and

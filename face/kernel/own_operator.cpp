@@ -44,8 +44,9 @@ EditResult OwnOperator::make(OperatorContext& context, tetmend::Transaction& tra
     if (fits) result = transaction.replace_cavity(proposal.old_, proposal.created_);
     if (result != EditResult::made) return result;
   }
-  if (!proposal.move_) return result;
-  const auto& [v, point] = *proposal.move_;
+  if (!proposal.moves_) return result;
+  const VertexHandle v = proposal.vertex_;
+  const Point& point = proposal.place_;
   if (!is_there(v) || !point.allFinite()) return EditResult::not_closed;
   const Link link = look.link(v);
   if (link.empty()) return EditResult::not_closed;

@@ -18,7 +18,9 @@ Verdict Proposal::replace(std::span<const TetHandle> old, std::span<const TetVer
 }
 
 Verdict Proposal::move(VertexHandle v, const Point& point) {
-  move_ = {v, point};
+  moves_ = true;
+  vertex_ = v;
+  place_ = point;
   return Verdict::accepted;
 }
 
@@ -28,7 +30,7 @@ EditResult Proposal::make(Transaction& edit) const {
     result = edit.replace(old_, std::span<const TetVertices>(created_));
     if (result != EditResult::made) return result;
   }
-  return move_ ? edit.move(move_->first, move_->second) : result;
+  return moves_ ? edit.move(vertex_, place_) : result;
 }
 
 void Operators::add(std::string_view name, std::string_view help, TargetKind target, Judge judge,

@@ -7,7 +7,6 @@
 #include <functional>
 #include <initializer_list>
 #include <map>
-#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -40,7 +39,9 @@ class TETMEND_API Proposal {
   friend class OwnOperator;  // does it within a pass
   std::vector<TetHandle> old_;
   std::vector<TetVertices> created_;
-  std::optional<std::pair<VertexHandle, Point>> move_;
+  bool moves_ = false;
+  VertexHandle vertex_;
+  Point place_;
 };
 
 /// Decides whether what an operator of a program did stays.

@@ -23,9 +23,7 @@ struct TETMEND_API DataArray {
   Values values = {};          ///< of all of them
 
   /// Numbers in all.
-  std::size_t size() const {
-    return std::visit([](const auto& numbers) { return numbers.size(); }, values);
-  }
+  std::size_t size() const;
   friend bool operator==(const DataArray&, const DataArray&) = default;  ///< NaN equals none
 };
 
