@@ -129,6 +129,7 @@ class Improvement {
   void build_mesh(MeshData& data, Mending mending = Mending::breaks_bounds);
   void hold_curved();
   void measure_before();
+  ScheduleSettings for_surface() const;
   void run_schedule(std::size_t passes, double seconds);
   void measure_after();
   CgSteps cg_steps() const {
@@ -303,6 +304,12 @@ void Improvement::measure_before() {
   if (portrait_ != nullptr) portrait_->draw_before(mesh_, result_.rulers_before);
 }
 
+/// Where lengths are wanted, the last bad tets are not worth most of the time: `improve` may follow.
+ScheduleSettings Improvement::for_surface() const {
+  if (!plan_.sizes.are_wanted()) return {};
+  return {{"max_rounds", "2"}};
+}
+
 /// The passes of the schedule, or so many of them, for so many seconds; 0: without a limit.
 void Improvement::run_schedule(std::size_t passes, double seconds) {
   diagonals_.reset();  // the mesh changes
@@ -328,7 +335,8 @@ void Improvement::run_schedule(std::size_t passes, double seconds) {
     // Where the fixed surface holds bad tets, it moves.
     if (!plan_.surface.is_fixed() && !run.cancelled()) {
       run.set_standard(plan_.standard);
-      if (run.indicators().n_bad > 0) tetmend::improve(run, Schedule::builtin("surface"), {});
+      if (run.indicators().n_bad > 0)
+        tetmend::improve(run, Schedule::builtin("surface"), for_surface());
     }
   }
   mesh_.renew_surface();

@@ -284,14 +284,24 @@ bool TetLocator::take(std::uint32_t tet, const Point& place, Best& best) const {
 /// If it holds the place, and is the first that does.
 void TetLocator::try_holder(std::uint32_t tet, const Point& place, Best& best) const {
   if ((best.is_inside() && tet >= best.place.tet) || !box_of(tet).contains(place)) return;
-  if (lie_of(data_, tet, place).is_outside()) return;
-  const Weights weights = find_weights(data_, tet, place);
-  if (weights.least() >= 0) best = {{tet, weights.of_vertices}, 0, 0};
+  const Lie lie = lie_of(data_, tet, place);
+  if (lie.is_outside()) return;
+  if (lie.is_inside() || find_weights(data_, tet, place).least() >= 0) best = {{tet, {}}, 0, 0};
 }
 
 TetPlace TetLocator::find(const Point& place, const Origin& origin) const {
   const std::uint32_t tet = find_tet(place, origin);
   return {tet, weights_in(data_, tet, place)};
+}
+
+TetPlace TetLocator::find_roughly(const Point& place, const Origin& origin) const {
+  const std::uint32_t tet = find_tet(place, origin);
+  const Lie lie = lie_of(data_, tet, place);
+  if (!lie.is_clear) return {tet, weights_in(data_, tet, place)};
+  TetPlace found{tet, lie.volumes};
+  const double sum = (lie.volumes[0] + lie.volumes[1]) + (lie.volumes[2] + lie.volumes[3]);
+  for (double& weight : found.weights) weight /= sum;
+  return found;
 }
 
 std::uint32_t TetLocator::find_tet(const Point& place, const Origin& origin) const {

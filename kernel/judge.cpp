@@ -210,15 +210,30 @@ bool keeps_lengths(const Transaction& transaction) {
   const TetMesh& mesh = transaction.mesh();
   const SizeField* field = mesh.size_field();
   if (field == nullptr) return true;
+  std::vector<EdgePlaces> now;
+  if (field->looks_back()) {
+    std::vector<EdgePlaces> before;
+    transaction.list_changed_edges(before, now);
+    return field->admits(before, now);
+  }
   std::vector<std::array<VertexHandle, 2>> edges;
   transaction.list_new_edges(edges);
-  std::vector<EdgePlaces> now;
   for (const auto& [a, b] : edges) now.push_back({mesh.point(a), mesh.point(b)});
-  if (field->admits({}, now)) return true;
-  if (!field->looks_back()) return false;
-  std::vector<EdgePlaces> before;
-  transaction.list_changed_edges(before, now);
-  return field->admits(before, now);
+  return field->admits({}, now);
+}
+
+/// An edge gives way between whose ends much shorter ones are wanted than there, and none that comes
+/// is too short: a split that is needed in any case, though those that come may miss by more.
+bool cuts_blind_edge(const WantedLengths& wanted, std::span<const EdgePlaces> before,
+                     std::span<const EdgePlaces> now) {
+  if (before.size() != 1 || now.size() < 2) return false;
+  const auto& [a, b] = before[0];
+  const double by_ends =
+      WantedLengths::relative_length((b - a).norm(), wanted.length(a), wanted.length(b));
+  return by_ends > WantedLengths::kMost && wanted.relative_length(a, b) > by_ends &&
+         std::all_of(now.begin(), now.end(), [&](const EdgePlaces& edge) {
+           return wanted.relative_length(edge[0], edge[1]) >= WantedLengths::kLeast;
+         });
 }
 
 /// The edges keep better to the wanted lengths.
@@ -228,7 +243,9 @@ bool fits_better(const Transaction& transaction) {
   std::vector<EdgePlaces> before;
   std::vector<EdgePlaces> now;
   transaction.list_changed_edges(before, now);
-  return improves(field->wanted()->misfits(now), field->wanted()->misfits(before));
+  const WantedLengths& wanted = *field->wanted();
+  return improves(wanted.misfits(now), wanted.misfits(before)) ||
+         cuts_blind_edge(wanted, before, now);
 }
 
 /// No new tet is turned over by its curved edges, or nearer to it than the worst at first.
@@ -425,7 +442,9 @@ bool Judge::accepts(const Change& change) const {
     const Transaction::Tets tets = change.transaction.tets();
     aim.more_bad_angles = count_bad_angles(tets.now, goal) > count_bad_angles(tets.before, goal);
   }
-  if (kind_ == Kind::fits_lengths) aim.fits = fits_better(change.transaction);
+  // The edges cost more than all qualities.
+  if (kind_ == Kind::fits_lengths && keeps_share(change.qualities))
+    aim.fits = fits_better(change.transaction);
   return holds_for(change.qualities, aim) &&
          (kind_ == Kind::opening || keeps_limits(change.transaction, change.qualities, kind_));
 }

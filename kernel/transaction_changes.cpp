@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What a transaction has changed so far, for those who judge it: read from its journal.
 #include <algorithm>
+#include <bit>
 
 #include "kernel/transaction.h"
 #include "kernel/workspace.h"
@@ -142,42 +143,83 @@ void Transaction::list_new_edges(std::vector<std::array<VertexHandle, 2>>& out) 
   }
 }
 
+namespace {
+
+/// The edges of tets before and after a change, each once. Hashed, for a change is asked about often.
+class EdgesOfChange {
+ public:
+  static constexpr unsigned kBefore = 1, kNow = 2, kBoth = 3;
+
+  /// So many tets are to come.
+  void clear(std::size_t tets) {
+    for (const std::uint32_t slot : used_) slots_[slot].sides = 0;
+    used_.clear();
+    const std::size_t most = 2 * kEdgeVertices.size() * tets;  // at most half of the slots are used
+    if (slots_.size() <= most) {
+      slots_.assign(std::bit_ceil(most + 1), {});
+      shift_ = 64 - static_cast<unsigned>(std::countr_zero(slots_.size()));
+    }
+  }
+  void add(const TetVertices& tet, unsigned sides) {
+    for (const auto& [j, k] : kEdgeVertices) {
+      const std::uint64_t low = std::min(tet[j].index(), tet[k].index());
+      const std::uint64_t ends = low << 32 | std::max(tet[j].index(), tet[k].index());
+      Slot& slot = slots_[slot_of(ends)];
+      if (slot.sides == 0) used_.push_back(static_cast<std::uint32_t>(&slot - slots_.data()));
+      slot.ends = ends;
+      slot.sides |= sides;
+    }
+  }
+  /// In the order in which they came.
+  template <class Act>
+  void for_each(const Act& act) const {
+    for (const std::uint32_t slot : used_) {
+      const auto& [ends, sides] = slots_[slot];
+      act(VertexHandle(static_cast<std::uint32_t>(ends >> 32)),
+          VertexHandle(static_cast<std::uint32_t>(ends)), sides);
+    }
+  }
+
+ private:
+  struct Slot {
+    std::uint64_t ends = 0;
+    unsigned sides = 0;  // 0: free
+  };
+
+  std::size_t slot_of(std::uint64_t ends) const {
+    const std::size_t mask = slots_.size() - 1;
+    std::size_t i = ends * 0x9E3779B97F4A7C15u >> shift_;
+    while (slots_[i].sides != 0 && slots_[i].ends != ends) i = (i + 1) & mask;
+    return i;
+  }
+
+  std::vector<Slot> slots_;
+  std::vector<std::uint32_t> used_;
+  unsigned shift_ = 63;
+};
+
+}  // namespace
+
 void Transaction::list_changed_edges(std::vector<std::array<Point, 2>>& before,
                                      std::vector<std::array<Point, 2>>& now) const {
-  using Ends = std::array<VertexHandle, 2>;
+  thread_local EdgesOfChange edges;
   const TransactionPast& past = this->past();
-  std::vector<Ends> old_edges;
-  std::vector<Ends> new_edges;
-  const auto add = [](const TetVertices& tet, std::vector<Ends>& edges) {
-    for (const auto& [j, k] : kEdgeVertices) {
-      edges.push_back(tet[j] < tet[k] ? Ends{tet[j], tet[k]} : Ends{tet[k], tet[j]});
-    }
-  };
-  for (const TetVertices& tet : past.removed) add(tet, old_edges);
+  edges.clear(past.removed.size() + past.changed.size());
+  for (const TetVertices& tet : past.removed) edges.add(tet, EdgesOfChange::kBefore);
   for (const TetHandle t : past.changed) {
-    add(mesh_.vertices(t), new_edges);
-    if (!past.was_made(t)) add(mesh_.vertices(t), old_edges);
+    edges.add(mesh_.vertices(t), past.was_made(t) ? EdgesOfChange::kNow : EdgesOfChange::kBoth);
   }
-  for (std::vector<Ends>* edges : {&old_edges, &new_edges}) {
-    std::sort(edges->begin(), edges->end());
-    edges->erase(std::unique(edges->begin(), edges->end()), edges->end());
-  }
-  const auto stays = [&](const Ends& ends, const std::vector<Ends>& others) {
-    return !past.is_displaced(ends[0]) && !past.is_displaced(ends[1]) &&
-           std::binary_search(others.begin(), others.end(), ends);
-  };
   const auto old_place = [&](VertexHandle v) {
     const auto place = past.find(v);
     return place == past.displaced.end() ? mesh_.point(v) : place->point;
   };
   before.clear();
   now.clear();
-  for (const Ends& ends : old_edges) {
-    if (!stays(ends, new_edges)) before.push_back({old_place(ends[0]), old_place(ends[1])});
-  }
-  for (const Ends& ends : new_edges) {
-    if (!stays(ends, old_edges)) now.push_back({mesh_.point(ends[0]), mesh_.point(ends[1])});
-  }
+  edges.for_each([&](VertexHandle a, VertexHandle b, unsigned sides) {
+    if (sides == EdgesOfChange::kBoth && !past.is_displaced(a) && !past.is_displaced(b)) return;
+    if (sides & EdgesOfChange::kBefore) before.push_back({old_place(a), old_place(b)});
+    if (sides & EdgesOfChange::kNow) now.push_back({mesh_.point(a), mesh_.point(b)});
+  });
 }
 
 }  // namespace tetmend

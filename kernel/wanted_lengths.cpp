@@ -35,7 +35,29 @@ double WantedLengths::length(const Point& p) const {
 }
 
 double WantedLengths::relative_length(const Point& a, const Point& b) const {
-  return relative_length((b - a).norm(), length(a), length(b));
+  return relative_length(a, b, (b - a).norm(), length(a), length(b));
+}
+
+/// @param length,at_a,at_b of the edge, and wanted at its ends
+double WantedLengths::relative_length(const Point& a, const Point& b, double length, double at_a,
+                                      double at_b) const {
+  const double by_ends = relative_length(length, at_a, at_b);
+  if (!at_ || by_ends <= kMost) return by_ends;
+  constexpr double kMuch = 1.5;  // far beyond what samples of a linear field are off by
+  const double between = length * sampled(a, b);
+  return between > kMuch * by_ends ? between : by_ends;
+}
+
+/// The mean of 1 / wanted along the edge: ends that want long edges say nothing of what lies between.
+double WantedLengths::sampled(const Point& a, const Point& b) const {
+  constexpr int kParts = 8;
+  if (std::lexicographical_compare(b.begin(), b.end(), a.begin(), a.end())) return sampled(b, a);
+  double sum = 0;
+  for (int i = 0; i <= kParts; ++i) {
+    const double weight = i == 0 || i == kParts ? 0.5 : 1;
+    sum += weight / this->length(a + i / double{kParts} * (b - a));
+  }
+  return sum / kParts;
 }
 
 /// The integral of 1 / wanted along the edge: the logarithmic mean of the ends.
@@ -59,7 +81,12 @@ Point WantedLengths::middle(const Point& a, const Point& b) const {
 std::vector<Quality> WantedLengths::misfits(std::span<const EdgePlaces> edges) const {
   std::vector<Quality> misfits;
   for (const auto& [a, b] : edges) {
-    const double fit = WantedLengths::fit(relative_length(a, b));
+    const double length = (b - a).norm();
+    const double at_a = this->length(a);
+    const double at_b = this->length(b);
+    // Most are in range by either end, and so by what lies between: without a logarithm.
+    if (length >= kLeast * std::max(at_a, at_b) && length <= kMost * std::min(at_a, at_b)) continue;
+    const double fit = WantedLengths::fit(relative_length(a, b, length, at_a, at_b));
     if (fit < 1) misfits.push_back(static_cast<Quality>(fit));
   }
   std::sort(misfits.begin(), misfits.end());

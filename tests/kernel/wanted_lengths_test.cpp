@@ -38,6 +38,14 @@ TEST_CASE("the relative length of an edge is the integral of one over the wanted
   }
 }
 
+TEST_CASE("an edge whose ends want long edges is long where short ones are wanted in between") {
+  const WantedLengths field([](const Point& p) { return std::abs(p.x() - 0.5) < 0.2 ? 0.1 : 0.5; });
+  CHECK(field.relative_length({0, 0, 0}, {1, 0, 0}) ==
+        doctest::Approx(0.4 / 0.1 + 0.6 / 0.5).epsilon(0.2));
+  CHECK(field.relative_length({0, 0, 0}, {0, 1, 0}) == doctest::Approx(2));
+  CHECK(field.misfits(std::vector<EdgePlaces>{{Point(0, 0, 0), Point(1, 0, 0)}})[0] < 0.3F);
+}
+
 TEST_CASE("the middle of an edge makes two of the same relative length") {
   const WantedLengths field([](const Point& p) { return 0.1 + 0.3 * p.x(); });
   const Point a(0, 0, 0);
