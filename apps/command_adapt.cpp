@@ -28,9 +28,11 @@ A SIZE is one of
   0.5x             half of what edges are there, on average at each vertex
   array:h          an array of the points of IN
   h.sol, h.solb    a file of MEDIT with one length for each vertex of IN
+  coarse.vtu:h     an array of the points of another mesh, linear in its tets
 or one of these for a region, as label:1,4=0.5. Regions without a size keep
 theirs. Where several regions meet, the least counts. Between vertices lengths
-are linear in the tets of IN.
+are linear in the tets of IN; those of another mesh, if they stand alone, in
+its own.
 
 The surface stays as it is, bit for bit, and so do its edges: lengths hold
 inside. With --surface flat, 1% or a length its edges are split and contracted

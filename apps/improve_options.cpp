@@ -200,9 +200,14 @@ namespace {
 /// Files that sizes name, of whatever region.
 void list_size_files(const Options& options, std::vector<NamedFile>& files) {
   for (const std::string& text : options.size) {
-    const std::filesystem::path file = text.substr(text.find('=') + 1);
+    const std::string size = text.substr(text.find('=') + 1);
+    const std::filesystem::path file = size;
     if (file.extension() == ".sol" || file.extension() == ".solb") {
       files.push_back({"--size", file});
+    } else if (const auto colon = size.rfind(':'); colon != std::string::npos) {
+      const std::filesystem::path background = size.substr(0, colon);
+      if (background.has_extension())
+        files.push_back({"--size", background, NamedFile::Kind::mesh});
     }
   }
 }

@@ -15,6 +15,7 @@
 #include "face/bodies.h"
 #include "face/tet_locator.h"
 #include "kernel/formats/medit_sizes.h"
+#include "kernel/formats/mesh_io.h"
 #include "kernel/from_chars.h"
 #include "kernel/size_field.h"
 
@@ -60,7 +61,7 @@ std::vector<Label> take_labels(std::string_view whole, std::string_view& rest) {
 }
 
 Spec read_spec(const std::string& text) {
-  Spec spec{.text = text, .name = {}, .labels = {}};
+  Spec spec{.text = text, .file = {}, .name = {}, .labels = {}};
   std::string_view rest = text;
   spec.labels = take_labels(text, rest);
   const std::filesystem::path path = std::string(rest);
@@ -72,8 +73,14 @@ Spec read_spec(const std::string& text) {
   }
   if (path.extension() == ".sol" || path.extension() == ".solb") {
     spec.kind = Spec::Kind::file;
-    spec.name = rest;
+    spec.file = rest;
     return spec;
+  }
+  if (const auto colon = rest.rfind(':'); colon != std::string_view::npos) {
+    spec.kind = Spec::Kind::background;
+    spec.file = rest.substr(0, colon);
+    spec.name = rest.substr(colon + 1);
+    if (std::filesystem::path(spec.file).has_extension() && !spec.name.empty()) return spec;
   }
   if (!rest.empty() && rest.back() == 'x') {
     spec.kind = Spec::Kind::factor;
@@ -84,14 +91,15 @@ Spec read_spec(const std::string& text) {
     throw wrong_size(
         text,
         "is no size: expected a length such as 0.5, a factor such as 0.5x, array:NAME, "
-        "or a file FILE.sol or FILE.solb, and label:L= before it for a region");
+        "a file FILE.sol or FILE.solb, or MESH:NAME, an array of another mesh, and label:L= "
+        "before it for a region");
   }
   if (!(std::isfinite(*number) && *number > 0)) throw wrong_size(text, "is not above 0");
   spec.number = *number;
   return spec;
 }
 
-/// The values of an array of the points, which must be numbers above 0.
+/// The values of an array of the points.
 std::vector<double> values_of(const MeshData& data, const Spec& spec) {
   const auto array = std::find_if(data.point_data.begin(), data.point_data.end(),
                                   [&](const DataArray& each) { return each.name == spec.name; });
@@ -121,31 +129,6 @@ std::vector<double> present_lengths(const MeshData& data, const TetMesh& mesh) {
     if (number != TetMesh::kNotFromFile) by_point[number] = lengths[i];
   }
   return by_point;
-}
-
-/// What a size says for each point.
-std::vector<double> lengths_of(const Spec& spec, const MeshData& data, const TetMesh& mesh) {
-  std::vector<double> lengths;
-  switch (spec.kind) {
-    case Spec::Kind::constant:
-      return std::vector<double>(data.points.size(), mesh.scale().to_work(spec.number));
-    case Spec::Kind::factor:
-      lengths = present_lengths(data, mesh);
-      for (double& length : lengths) length *= spec.number;
-      return lengths;
-    case Spec::Kind::array:
-      lengths = values_of(data, spec);
-      break;
-    case Spec::Kind::file:
-      lengths = formats::read_medit_sizes(spec.name);
-      break;
-  }
-  if (lengths.size() != data.points.size()) {
-    throw Error(
-        fmt::format("{}: {} lengths for {} points", spec.name, lengths.size(), data.points.size()));
-  }
-  for (double& length : lengths) length = mesh.scale().to_work(length);
-  return lengths;
 }
 
 /// Points of tets in a region, by point; all of them where the size is for everywhere.
@@ -226,7 +209,7 @@ class LinearLengths {
         locator_(data, bodies_, all(data)) {}
 
   double at(const Point& place) const {
-    const TetPlace found = locator_.find(place);
+    const TetPlace found = locator_.find_roughly(place);
     const auto& v = data_.tets[found.tet].vertices;
     double least = lengths_[v[0]];
     double most = least;
@@ -251,6 +234,80 @@ class LinearLengths {
   Bodies bodies_;
   TetLocator locator_;
 };
+
+/// @throws Error for a length that is none; `length` as the file has it
+void check_length(const Spec& spec, std::size_t point, double length) {
+  if (std::isfinite(length) && length > 0) return;
+  throw Error(fmt::format("{}: point {} has the size {:g}: expected a number above 0", spec.text,
+                          point, length));
+}
+
+/// Another mesh with an array of lengths, in the lengths that ours is worked with.
+class Background {
+ public:
+  /// @param clamped a length of the file within its bounds
+  /// @param rate of growth, see grade(); 0: lengths grow as they like
+  Background(const Spec& spec, const Scale& scale, const std::function<double(double)>& clamped,
+             double rate)
+      : data_(mesh_of(spec)), lengths_(data_, in_work(spec, scale, clamped, rate)) {}
+  Background(const Background&) = delete;
+  Background& operator=(const Background&) = delete;
+
+  double at(const Point& place) const { return lengths_.at(place); }
+
+ private:
+  static MeshData mesh_of(const Spec& spec) {
+    MeshData data = read_mesh(spec.file);
+    if (data.tets.empty()) throw Error(fmt::format("{}: has no linear tets", spec.file));
+    return data;
+  }
+  std::vector<double> in_work(const Spec& spec, const Scale& scale,
+                              const std::function<double(double)>& clamped, double rate) {
+    std::vector<double> lengths = values_of(data_, spec);
+    for (const MeshData::Tet& tet : data_.tets) {
+      for (const std::uint32_t v : tet.vertices) check_length(spec, v, lengths[v]);
+    }
+    for (double& length : lengths) length = scale.to_work(clamped(length));
+    scale.to_work(data_.points);
+    if (rate > 0) grade(data_, rate, lengths);
+    return lengths;
+  }
+
+  MeshData data_;
+  LinearLengths lengths_;
+};
+
+/// What a size says for each point.
+std::vector<double> lengths_of(const Spec& spec, const MeshData& data, const TetMesh& mesh) {
+  std::vector<double> lengths;
+  switch (spec.kind) {
+    case Spec::Kind::constant:
+      return std::vector<double>(data.points.size(), mesh.scale().to_work(spec.number));
+    case Spec::Kind::factor:
+      lengths = present_lengths(data, mesh);
+      for (double& length : lengths) length *= spec.number;
+      return lengths;
+    case Spec::Kind::array:
+      lengths = values_of(data, spec);
+      break;
+    case Spec::Kind::file:
+      lengths = formats::read_medit_sizes(spec.file);
+      break;
+    case Spec::Kind::background: {
+      const Background background(
+          spec, mesh.scale(), [](double length) { return length; }, 0);
+      for (const Point& p : data.points) lengths.push_back(background.at(p));
+      return lengths;
+    }
+  }
+  if (lengths.size() != data.points.size()) {
+    throw Error(fmt::format("{}: {} lengths for {} points",
+                            spec.file.empty() ? spec.text : spec.file, lengths.size(),
+                            data.points.size()));
+  }
+  for (double& length : lengths) length = mesh.scale().to_work(length);
+  return lengths;
+}
 
 }  // namespace
 
@@ -286,8 +343,8 @@ double Sizes::clamped(double length) const {
   return largest_ > 0 ? std::min(length, largest_) : length;
 }
 
-bool Sizes::is_constant() const {
-  return specs_.size() == 1 && specs_[0].kind == Spec::Kind::constant && specs_[0].labels.empty();
+bool Sizes::is_alone(Spec::Kind kind) const {
+  return specs_.size() == 1 && specs_[0].kind == kind && specs_[0].labels.empty();
 }
 
 std::shared_ptr<const WantedLengths> Sizes::field(const MeshData& data, const TetMesh& mesh) const {
@@ -303,8 +360,15 @@ std::shared_ptr<const WantedLengths> Sizes::field(const MeshData& data, const Te
       return scale.to_work(clamped(length));
     });
   }
-  if (is_constant()) {
+  if (is_alone(Spec::Kind::constant)) {
     return std::make_shared<WantedLengths>(scale.to_work(clamped(specs_[0].number)));
+  }
+  const double rate = gradation_ > 0 ? gradation_ - 1 : 0;
+  if (is_alone(Spec::Kind::background)) {  // which may be finer than the mesh
+    const auto within = [this](double length) { return clamped(length); };
+    const auto background = std::make_shared<const Background>(specs_[0], scale, within, rate);
+    return std::make_shared<WantedLengths>(
+        [background](const Point& place) { return background->at(place); });
   }
   constexpr double kNone = std::numeric_limits<double>::infinity();
   std::vector<double> lengths(data.points.size(), kNone);
@@ -317,10 +381,7 @@ std::shared_ptr<const WantedLengths> Sizes::field(const MeshData& data, const Te
       const std::vector<char> are_in = points_in(data, spec);
       for (std::size_t i = 0; i < lengths.size(); ++i) {
         if (are_in[i] == 0) continue;
-        if (!(std::isfinite(wanted[i]) && wanted[i] > 0)) {
-          throw Error(fmt::format("{}: point {} has the size {:g}: expected a number above 0",
-                                  spec.text, i, scale.to_file(wanted[i])));
-        }
+        check_length(spec, i, scale.to_file(wanted[i]));
         of_regions[i] = std::min(of_regions[i], wanted[i]);
       }
     }
@@ -333,7 +394,7 @@ std::shared_ptr<const WantedLengths> Sizes::field(const MeshData& data, const Te
     if (lengths[i] == kNone) lengths[i] = present[i];
     lengths[i] = scale.to_work(clamped(scale.to_file(lengths[i])));
   }
-  if (gradation_ > 0) grade(data, gradation_ - 1, lengths);
+  if (rate > 0) grade(data, rate, lengths);
   auto linear = std::make_shared<const LinearLengths>(data, std::move(lengths));
   return std::make_shared<WantedLengths>(
       [linear](const Point& place) { return linear->at(place); });

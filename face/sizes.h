@@ -27,18 +27,19 @@ class Sizes {
   /// Cost: about n log n.
   std::shared_ptr<const WantedLengths> field(const MeshData& data, const TetMesh& mesh) const;
 
-  /// "array:h", "h.sol", "0.5", "0.5x", one of them behind "label:1,4=".
+  /// "array:h", "h.sol", "coarse.vtu:h", "0.5", "0.5x", one of them behind "label:1,4=".
   struct Spec {
-    enum class Kind { constant, factor, array, file };
+    enum class Kind { constant, factor, array, file, background };
     std::string text;  ///< as the user wrote it
     Kind kind = Kind::constant;
     double number = 0;          ///< of a constant or factor
-    std::string name;           ///< of an array or file
+    std::string file;           ///< of lengths, or a background mesh
+    std::string name;           ///< of an array
     std::vector<Label> labels;  ///< of the regions; empty: everywhere
   };
 
  private:
-  bool is_constant() const;
+  bool is_alone(Spec::Kind kind) const;
   double clamped(double length) const;
 
   std::vector<Spec> specs_;

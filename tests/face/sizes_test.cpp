@@ -2,14 +2,17 @@
 // adapt(): sizes in all their forms, what is refused, and what comes over.
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <string>
 #include <vector>
 
 #include <doctest/doctest.h>
 #include <tetmend/improve.h>
+#include <tetmend/io.h>
 
 #include "contract/zoo.h"
 #include "face/mesh_access.h"
+#include "tests/kernel/formats/fixtures.h"
 
 using namespace tetmend;
 
@@ -101,6 +104,36 @@ TEST_CASE(
   CHECK_THROWS_WITH_AS(adapt(mesh, {.size = {"0.00001x"}}),
                        doctest::Contains("a mesh has at most 1e+09"), OptionError);
   CHECK(MeshAccess::data(mesh).points.size() == points);
+}
+
+TEST_CASE("an array of another mesh is linear in the tets of that one, however coarse ours is") {
+  const test::TempFolder folder;
+  const std::filesystem::path file = folder / "ground.vtu";
+  MeshData data = contract::kuhn_cube(8, 0, 1);
+  DataArray h{"h", 1, std::vector<double>()};
+  for (const Point& p : data.points) {
+    std::get<std::vector<double>>(h.values).push_back(std::abs(p.x() - 0.5) < 0.2 ? 0.06 : 0.3);
+  }
+  data.point_data = {h};
+  save(file, MeshAccess::make(data));
+  Mesh coarse = MeshAccess::make(contract::kuhn_cube(1, 0, 1));
+  const Result result =
+      adapt(coarse, {.surface = "flat", .size = {file.string() + ":h"}, .gradation = 0});
+  CHECK(result.sizes_after->in_range > 0.9);
+  std::size_t in_the_middle = 0;
+  const std::vector<Point>& points = MeshAccess::data(coarse).points;
+  for (const Point& p : points) in_the_middle += std::abs(p.x() - 0.5) < 0.25 ? 1 : 0;
+  CHECK(in_the_middle > 9 * points.size() / 10);
+  Mesh within_a_region = cube();
+  CHECK(adapt(within_a_region, {.size = {"0.1", "label:2=" + file.string() + ":h"}})
+            .sizes_after->in_range > 0.8);
+  for (const std::string& wrong :
+       {std::string(":h"), std::string("ground:h"), file.string() + ":", file.string() + ":none"}) {
+    CAPTURE(wrong);
+    CHECK(option_of({.size = {wrong}}) == "size");
+  }
+  Mesh mesh = cube();
+  CHECK_THROWS_AS(adapt(mesh, {.size = {"not_there.vtu:h"}}), Error);
 }
 
 TEST_CASE("lengths stay within smallest and largest") {

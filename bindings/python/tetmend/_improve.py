@@ -256,8 +256,8 @@ def adapt(points: ArrayLike | Mesh | Result, tets: ArrayLike | str | None = None
           size: float | str | Sequence[float | str], **options: Any) -> Result:
     """Makes edges as long as wanted, and improves what came of it without undoing that. What goes in stays as it is.
 
-    size  0.5, a length; "0.5x", half of what edges are there; "array:h", an array of point_data; "h.sol", a file of MEDIT; or one
-          of these for a region, "label:3=0.2"; or several of them
+    size  0.5, a length; "0.5x", half of what edges are there; "array:h", an array of point_data; "h.sol", a file of MEDIT;
+          "coarse.vtu:h", an array of another mesh; or one of these for a region, "label:3=0.2"; or several of them
 
     All else is as for improve(), also gradation=1.3, smallest and largest, the bounds of wanted lengths. The surface stays, and so
     do its edges, unless the option surface lets it move. The figures of the input are no bounds.
