@@ -43,6 +43,8 @@ struct ContractionState {
   std::vector<Candidate> candidates;  // the first `count`; the others are room
   std::size_t count = 0;
   std::size_t next = 0;  // to be tried
+  bool halfway = false;  // both meet between their places
+  std::vector<HalfFace> kept_link;
   LabelledReplacement replacement;
 };
 
@@ -50,7 +52,8 @@ struct ContractionState {
 /// quality vector, and smooths that neighbour unless it is fixed ([chen, 6.3]). Inside refuses
 /// fixed vertices; at the surface merges a vertex of a patch into a neighbour on the surface, one
 /// of a feature line into a neighbour on that line, and tries several neighbours. Under a judge of
-/// lengths the neighbours are those that are too near, and stay where they are. Else a neighbour
+/// lengths the neighbours are those that are too near, and stay where they are; where none will do, as
+/// in a regular lattice, whose tets would become flat, the nearest comes halfway. Else a neighbour
 /// that may move must promise a share of the worst quality of the ball, the `least_ratio`, before
 /// it is smoothed. Cost: linear in ball size times neighbours.
 template <Where where>
@@ -79,11 +82,15 @@ class EdgeContraction final : public OperatorOf<ContractionState> {
     Quality worst_old = mesh.quality(state.ball.link[0].tet());
     for (const HalfFace f : state.ball.link) worst_old = std::min(worst_old, mesh.quality(f.tet()));
     state.count = state.next = 0;
+    state.halfway = false;
     const double floor = context.judge->floor(worst_old);
     if constexpr (kInside) {
       list_neighbours(mesh, state);
       if (context.judge->looks_at_mean()) return find_roundest(context, v, state);
-      if (context.judge->looks_at_lengths()) return find_near(mesh, v, floor, state);
+      if (context.judge->looks_at_lengths()) {
+        find_near(mesh, v, floor, state);
+        return state.count > 0 ? Verdict::accepted : find_halfway(mesh, v, state);
+      }
     } else {
       list_neighbours_on_surface(mesh, v, state);
       if (context.judge->looks_at_lengths()) leave_near(mesh, v, state.neighbours);
@@ -101,6 +108,7 @@ class EdgeContraction final : public OperatorOf<ContractionState> {
                   return x.qualities != y.qualities ? x.qualities > y.qualities : x.kept < y.kept;
                 });
     }
+    if (state.count == 0 && context.judge->looks_at_lengths()) return find_halfway(mesh, v, state);
     return state.count > 0 ? Verdict::accepted : Verdict::no_improvement;
   }
 
@@ -112,6 +120,10 @@ class EdgeContraction final : public OperatorOf<ContractionState> {
     if (state.next > 0) {  // the link was that of another vertex meanwhile
       const StarKind kind = find_star(mesh, target.vertex(), context.workspace, link);
       if (kind != StarKind::whole) return to_verdict(kind);
+    }
+    if (state.halfway) {
+      const Verdict verdict = come_halfway(context, target.vertex(), w, transaction, state);
+      if (verdict != Verdict::accepted) return verdict;
     }
     state.replacement.clear();
     for (const HalfFace f : link) {
@@ -177,7 +189,7 @@ class EdgeContraction final : public OperatorOf<ContractionState> {
 
   /// The best neighbour, by its quality vector, of the nearest that are too near; no new edge may miss
   /// the wanted lengths by as much as the one that goes.
-  static Verdict find_near(const TetMesh& mesh, VertexHandle v, double least, State& state) {
+  static void find_near(const TetMesh& mesh, VertexHandle v, double least, State& state) {
     constexpr std::size_t kNearest = 5;
     const WantedLengths& wanted = *mesh.size_field()->wanted();
     const Point& place = mesh.point(v);
@@ -197,7 +209,39 @@ class EdgeContraction final : public OperatorOf<ContractionState> {
           });
       if (fits) consider(mesh, w, least, state);
     }
-    return state.count > 0 ? Verdict::accepted : Verdict::no_improvement;
+  }
+
+  /// The nearest neighbour that is too near and may move.
+  static Verdict find_halfway(const TetMesh& mesh, VertexHandle v, State& state) {
+    const WantedLengths& wanted = *mesh.size_field()->wanted();
+    Near nearest{WantedLengths::kLeast, VertexHandle()};
+    for (const VertexHandle w : state.neighbours) {
+      const bool moves = kInside ? !mesh.is_fixed(w) : may_come(mesh, v, w);
+      const Near near{wanted.relative_length(mesh.point(v), mesh.point(w)), w};
+      if (moves && near < nearest) nearest = near;
+    }
+    if (!nearest.vertex.is_valid()) return Verdict::no_improvement;
+    next_candidate(state).kept = nearest.vertex;
+    state.count = 1;
+    state.halfway = true;
+    return Verdict::accepted;
+  }
+
+  /// On the surface: along the patch or the line of both.
+  static bool may_come(const TetMesh& mesh, VertexHandle v, VertexHandle w) {
+    const SurfaceGuard& guard = *mesh.surface_guard();
+    return may_change(mesh, w) && guard.place(w) == guard.place(v);
+  }
+
+  static Verdict come_halfway(OperatorContext& context, VertexHandle v, VertexHandle w,
+                              Transaction& transaction, State& state) {
+    const TetMesh& mesh = context.mesh;
+    const StarKind kind = find_star(mesh, w, context.workspace, state.kept_link);
+    if (kind != StarKind::whole) return to_verdict(kind);
+    const Point place = mesh.size_field()->wanted()->middle(mesh.point(v), mesh.point(w));
+    const VertexMove move{w, place, state.kept_link};
+    return to_verdict(kInside ? transaction.move_vertices({&move, 1})
+                              : transaction.move_at_surface({&move, 1}));
   }
 
   static double round(const TetMesh& mesh, HalfFace f, const Point& point) {

@@ -136,6 +136,20 @@ TEST_CASE("an array of another mesh is linear in the tets of that one, however c
   CHECK_THROWS_AS(adapt(mesh, {.size = {"not_there.vtu:h"}}), Error);
 }
 
+TEST_CASE(
+    "a regular lattice, none of whose vertices can go where another is, gets coarser and finer "
+    "again") {
+  Mesh mesh = MeshAccess::make(contract::kuhn_cube(12, 0, 1));
+  const Result coarser = adapt(mesh, {.surface = "flat", .size = {"0.25"}});
+  CHECK(coarser.after.tets < coarser.before.tets / 10);
+  CHECK(coarser.sizes_after->in_range > 0.85);
+  CHECK(coarser.after.theta_min > 15);
+  const Result finer = adapt(mesh, {.surface = "flat", .size = {"0.1"}});
+  CHECK(finer.after.tets > 10 * finer.before.tets);
+  CHECK(finer.sizes_after->in_range > 0.95);
+  CHECK(std::abs(finer.volume_change()) < 1e-9);
+}
+
 TEST_CASE("lengths stay within smallest and largest") {
   Mesh coarse = cube();
   Mesh fine = cube();
