@@ -56,6 +56,7 @@ Other measurements, each with a --help and a --write of its own:
   script/bench --renumbered MESH...    what the order of vertices and tets changes
   script/bench --solvers [MESH...]     what solvers feel: error, CG steps, explicit steps
   script/bench --tangled [MESH...]     what is left of inverted tets in meshes that can be repaired
+  script/bench --sizes [WORD...]       edges as long as wanted: tetmend adapt, MMG, Gmsh
   script/bench --kernel [MESH...]      the mesh kernel beside those of others: memory, walks, edits
   script/bench --micro [OPTION...]     walks, searches, edits, smoothing one by one; the options are
                                        those of Google Benchmark, such as --benchmark_filter=shell

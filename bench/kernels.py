@@ -41,6 +41,7 @@ TASKS = {
 }
 MOST_WITH_PROPERTY = 1.1  # times a flip without one
 ROUNDS = 3
+LIMIT = 300  # seconds
 HEADERS = ["vector", "Eigen/Core", "tetmend/kernel.h", "tetmend/operators.h", "tetmend/schedule.h"]
 HEADER_ROUNDS = 5
 FOREIGN = ["tbb", "lua", "fmt"]
@@ -56,7 +57,11 @@ Figures = dict[str, tuple[float, int]]  # by task: the least of the rounds, and 
 
 
 def told_by(program: Path, mesh: Path, edits: Path) -> Figures:
-    told = subprocess.run([program, mesh, edits], check=True, stdout=subprocess.PIPE, text=True).stdout
+    """Nothing after LIMIT seconds."""
+    try:
+        told = subprocess.run([program, mesh, edits], check=True, stdout=subprocess.PIPE, text=True, timeout=LIMIT).stdout
+    except subprocess.TimeoutExpired:
+        return {}
     figures = {}
     for line in told.splitlines():
         words = line.split()
@@ -66,7 +71,7 @@ def told_by(program: Path, mesh: Path, edits: Path) -> Figures:
 
 
 def least(rounds: list[Figures]) -> Figures:
-    return {task: min(figures[task] for figures in rounds) for task in rounds[0]}
+    return {task: min(figures[task] for figures in rounds) for task in rounds[0]} if all(rounds) else {}
 
 
 def measured(mesh: Path, build: Path, rounds: int) -> dict[str, Figures]:
@@ -79,7 +84,8 @@ def measured(mesh: Path, build: Path, rounds: int) -> dict[str, Figures]:
         turns: dict[str, list[Figures]] = {name: [] for name in programs}
         for _ in range(rounds):
             for name, program in programs.items():
-                turns[name].append(told_by(program, mesh, edits))
+                if {} not in turns[name]:
+                    turns[name].append(told_by(program, mesh, edits))
     return {name: least(figures) for name, figures in turns.items()}
 
 
@@ -145,7 +151,8 @@ def main() -> None:
     folder = Path(compare.MESHES)
     meshes = options.meshes or [folder / "f6s_280k.mesh.xz", folder / "f6_1m.mesh.xz"]
     sections = [__doc__.strip(), "Nanoseconds of the processor, the least of "
-                f"{options.rounds} rounds; in brackets as a multiple of `tetmend`."]
+                f"{options.rounds} rounds; in brackets as a multiple of `tetmend`. A program without figures took "
+                f"longer than {LIMIT} seconds."]
     missed = []
     for mesh in meshes:
         kernels = measured(compare.plain(mesh), options.build, options.rounds)

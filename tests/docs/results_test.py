@@ -49,6 +49,7 @@ RERUNS = {
     "rivals": Rerun(own=["bracket"], tire=["tire"],
                     options=["--only", "tetmend", "--repetitions", "1"]),
     "schedules": Rerun(own=OWN, tire=["tire"]),
+    "sizes": Rerun(own=["radial", "coarser"], keys=2),  # rivals are not run
     "surface": Rerun(tire=["tire"], keys=2),  # rivals are not run
     "tangled": Rerun(own=["lattice", "--share", "10", "--share", "45"], keys=2),
 }
@@ -66,7 +67,7 @@ NOT_RUN = {
 }
 NEED_TIME = {"rivals", "surface"}
 # What another machine, or another load, changes.
-VARIES = re.compile(r"(.* )?(s|seconds|MB)|tets a second|improving us a tet|ratio|peak bytes a tet")
+VARIES = re.compile(r"(.* )?(s|seconds|MB)|tets a second|(improving )?us a tet|ratio|peak bytes a tet")
 
 Rows = set[tuple[str, ...]]
 
