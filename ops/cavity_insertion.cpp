@@ -64,7 +64,7 @@ struct InsertionState {
 /// edge.
 /// Cost: the growth of some 30 cavities and the smoothing of one vertex in each, and a relaxation
 /// for each try.
-template <Where where>
+template <Where At>
 class CavityInsertion final : public OperatorOf<InsertionState> {
  public:
   explicit CavityInsertion(const ParameterValues& values)
@@ -134,7 +134,7 @@ class CavityInsertion final : public OperatorOf<InsertionState> {
   }
 
  private:
-  static constexpr bool kInside = where == Where::inside;
+  static constexpr bool kInside = At == Where::inside;
 
   /// The centroids of the tet, its faces and its edges.
   static void list_sites(const TetMesh& mesh, TetHandle t, std::vector<Site>& sites) {
@@ -211,12 +211,12 @@ class CavityInsertion final : public OperatorOf<InsertionState> {
       const auto [a, b, c] = mesh.vertices(f);
       state.replacement.add({v, a, b, c}, mesh.label(f.tet()));
     }
-    const Verdict verdict = state.replacement.make(transaction, where);
+    const Verdict verdict = state.replacement.make(transaction, At);
     if (verdict != Verdict::accepted) return verdict;
     if (relax_) {
-      relax(context, transaction, v, limits_, state.relaxation, where);
+      relax(context, transaction, v, limits_, state.relaxation, At);
     } else if (!kInside) {
-      climb(context, transaction, v, limits_, state.relaxation.ball, where);
+      climb(context, transaction, v, limits_, state.relaxation.ball, At);
     }
     return Verdict::accepted;
   }

@@ -56,7 +56,7 @@ struct ContractionState {
 /// in a regular lattice, whose tets would become flat, the nearest comes halfway. Else a neighbour
 /// that may move must promise a share of the worst quality of the ball, the `least_ratio`, before
 /// it is smoothed. Cost: linear in ball size times neighbours.
-template <Where where>
+template <Where At>
 class EdgeContraction final : public OperatorOf<ContractionState> {
  public:
   explicit EdgeContraction(const ParameterValues& values)
@@ -70,7 +70,7 @@ class EdgeContraction final : public OperatorOf<ContractionState> {
   using State = ContractionState;
 
   Verdict precondition(const OperatorContext& context, Target target, State&) const override {
-    return check_vertex(context.mesh, target.vertex(), where);
+    return check_vertex(context.mesh, target.vertex(), At);
   }
 
   Verdict evaluate(OperatorContext& context, Target target, State& state) const override {
@@ -131,14 +131,14 @@ class EdgeContraction final : public OperatorOf<ContractionState> {
       const auto [a, b, c] = mesh.vertices(f);
       if (a != w && b != w && c != w) state.replacement.add({w, a, b, c}, mesh.label(f.tet()));
     }
-    const Verdict verdict = state.replacement.make(transaction, where);
+    const Verdict verdict = state.replacement.make(transaction, At);
     if (verdict != Verdict::accepted || context.judge->looks_at_lengths()) return verdict;
     if (kInside && !mesh.is_fixed(w) &&
         find_star(mesh, w, context.workspace, link) == StarKind::border) {
       return Verdict::deferred;
     }
     // A refused move leaves the contraction as it is; the judge decides.
-    climb(context, transaction, w, limits_, state.ball, where);
+    climb(context, transaction, w, limits_, state.ball, At);
     return Verdict::accepted;
   }
 
@@ -147,7 +147,7 @@ class EdgeContraction final : public OperatorOf<ContractionState> {
   }
 
  private:
-  static constexpr bool kInside = where == Where::inside;
+  static constexpr bool kInside = At == Where::inside;
 
   /// The neighbour with which the mean of the mean ratios rises most, of the nearest.
   Verdict find_roundest(const OperatorContext& context, VertexHandle v, State& state) const {

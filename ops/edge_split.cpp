@@ -42,11 +42,11 @@ struct SplitState {
 /// is judged. Refuses edges of the other kind, and splits that pay for a better worst tet with
 /// many new bad ones, so that the mesh does not grow for nothing. Cost: the smoothing of one
 /// vertex, with `relax` of about 30 and of their shells.
-template <Where where>
+template <Where At>
 class EdgeSplit final : public OperatorOf<SplitState> {
  public:
   explicit EdgeSplit(const ParameterValues& values)
-      : OperatorOf(where == Where::inside ? edge_split_info() : surface_split_info(),
+      : OperatorOf(At == Where::inside ? edge_split_info() : surface_split_info(),
                    Judge::fair({.desperate = values.real("desperate")})),
         least_gain_(values.real("least_gain")),
         relax_(values.flag("relax")),
@@ -60,7 +60,7 @@ class EdgeSplit final : public OperatorOf<SplitState> {
   Verdict precondition(const OperatorContext& context, Target target, State& state) const override {
     const Verdict verdict = list_tets(context, target.edge(), state);
     if (verdict != Verdict::accepted) return verdict;
-    if (where == Where::inside && has_no_room(context)) return Verdict::no_improvement;
+    if (At == Where::inside && has_no_room(context)) return Verdict::no_improvement;
     return state.tets.size() <= max_degree_ ? Verdict::accepted : Verdict::not_applicable;
   }
 
@@ -86,7 +86,7 @@ class EdgeSplit final : public OperatorOf<SplitState> {
       state.ball.add(b, p, q);
     }
     state.point = 0.5 * (a + b);
-    if (where == Where::at_surface) return place_along_surface(mesh, least, state);
+    if (At == Where::at_surface) return place_along_surface(mesh, least, state);
     if (context.judge->looks_at_lengths()) {
       state.point = mesh.size_field()->wanted()->middle(a, b);
       if (state.ball.worst(state.point) > least) return Verdict::accepted;
@@ -106,12 +106,12 @@ class EdgeSplit final : public OperatorOf<SplitState> {
       state.replacement.add({state.a, v, p, q}, label);
       state.replacement.add({v, state.b, p, q}, label);
     }
-    const Verdict verdict = state.replacement.make(transaction, where);
+    const Verdict verdict = state.replacement.make(transaction, At);
     if (verdict != Verdict::accepted) return verdict;
     if (relax_) {
-      relax(context, transaction, v, limits_, state.relaxation, where);
-    } else if (where == Where::at_surface) {
-      climb(context, transaction, v, limits_, state.relaxation.ball, where);
+      relax(context, transaction, v, limits_, state.relaxation, At);
+    } else if (At == Where::at_surface) {
+      climb(context, transaction, v, limits_, state.relaxation.ball, At);
     }
     return Verdict::accepted;
   }
@@ -119,7 +119,7 @@ class EdgeSplit final : public OperatorOf<SplitState> {
  private:
   static Verdict list_tets(const OperatorContext& context, TetEdge edge, State& state) {
     state.tets.clear();
-    if constexpr (where == Where::inside) {
+    if constexpr (At == Where::inside) {
       Shell& shell = state.shell;
       const Verdict verdict = find_searchable_shell(context, edge, shell);
       if (verdict != Verdict::accepted) return verdict;

@@ -24,7 +24,7 @@ struct SmoothingState {
 /// plane, one of a feature line along it; each place is pulled back to the nearest of the patch or
 /// line. Where the guard of the surface refuses, half of the way is tried. Refuses vertices of the
 /// other kind.
-template <Where where>
+template <Where At>
 class Smoothing final : public OperatorOf<SmoothingState> {
  public:
   explicit Smoothing(const ParameterValues& values)
@@ -42,7 +42,7 @@ class Smoothing final : public OperatorOf<SmoothingState> {
   using State = SmoothingState;
 
   Verdict precondition(const OperatorContext& context, Target target, State&) const override {
-    return check_vertex(context.mesh, target.vertex(), where);
+    return check_vertex(context.mesh, target.vertex(), At);
   }
 
   Verdict evaluate(OperatorContext& context, Target target, State& state) const override {
@@ -82,7 +82,7 @@ class Smoothing final : public OperatorOf<SmoothingState> {
   }
 
  private:
-  static constexpr bool kInside = where == Where::inside;
+  static constexpr bool kInside = At == Where::inside;
 
   /// Moves the point of the ball, and answers the quality of the worst tet there.
   double find_place(const TetMesh& mesh, VertexHandle v, double start, State& state) const {
