@@ -29,10 +29,11 @@ A SIZE is one of
   array:h          an array of the points of IN
   h.sol, h.solb    a file of MEDIT with one length for each vertex of IN
   coarse.vtu:h     an array of the points of another mesh, linear in its tets
+  h.lua            what the function size(x, y, z) of this script returns
 or one of these for a region, as label:1,4=0.5. Regions without a size keep
 theirs. Where several regions meet, the least counts. Between vertices lengths
 are linear in the tets of IN; those of another mesh, if they stand alone, in
-its own.
+its own. A function that stands alone is asked at each place, ungraded.
 
 The surface stays as it is, bit for bit, and so do its edges: lengths hold
 inside. With --surface flat, 1% or a length its edges are split and contracted

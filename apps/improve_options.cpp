@@ -202,7 +202,8 @@ void list_size_files(const Options& options, std::vector<NamedFile>& files) {
   for (const std::string& text : options.size) {
     const std::string size = text.substr(text.find('=') + 1);
     const std::filesystem::path file = size;
-    if (file.extension() == ".sol" || file.extension() == ".solb") {
+    const std::string extension = file.extension().string();
+    if (extension == ".sol" || extension == ".solb" || extension == ".lua") {
       files.push_back({"--size", file});
     } else if (const auto colon = size.rfind(':'); colon != std::string::npos) {
       const std::filesystem::path background = size.substr(0, colon);

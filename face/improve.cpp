@@ -30,6 +30,7 @@
 #include "face/plan.h"
 #include "face/recorded.h"
 #include "face/regions.h"
+#include "face/size_statistics.h"
 #include "face/surface_points.h"
 #include "face/trace_plan.h"
 #include "face/watcher.h"
@@ -259,15 +260,6 @@ void Improvement::hold_curved() {
   if (!curved_edges_->is_empty()) mesh_.set_curved_edges(curved_edges_);
 }
 
-/// A slip of a digit asks for more than any memory holds.
-void check_wanted(double tets) {
-  constexpr double kMost = 1e9;  // what handles can name
-  if (tets <= kMost) return;
-  throw OptionError("size", fmt::format("size: so short edges make about {:.2g} tets, and a mesh "
-                                        "has at most {:.0g}",
-                                        tets, kMost));
-}
-
 void Improvement::measure_before() {
   watcher_.begin(Stage::measuring);
   const Stopwatch watch(result_.measuring);
@@ -276,12 +268,7 @@ void Improvement::measure_before() {
   if (curved_edges_) result_.curved_before = curved_statistics(input_, mesh_);
   if (plan_.sizes.are_wanted()) {
     result_.sizes_before = face::size_statistics(mesh_);
-    if (options_.tets.empty()) check_wanted(result_.sizes_before->tets_wanted);
-    if (result_.sizes_before->tets_wanted < 1) {
-      note(
-          {"one tet of the wanted size is larger than the whole mesh: is --size a length of this "
-           "file?"});
-    }
+    note(face::remarks_on(*result_.sizes_before, options_));
   }
   // Whoever asks for them or not: the promises are held to them.
   result_.rulers_before = diagonals_ ? measure_rulers(mesh_, *diagonals_, cg_steps())

@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: MIT
+#include "face/size_statistics.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <string>
 #include <vector>
 
+#include <fmt/format.h>
 #include <tbb/parallel_sort.h>
 
-#include "face/sizes.h"
 #include "kernel/chunks.h"
 
 namespace tetmend::face {
@@ -25,12 +28,12 @@ void sort_once(std::vector<std::uint64_t>& keys) {
   keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
 }
 
-double tets_wanted(const TetMesh& mesh, const std::vector<double>& wanted) {
+double tets_wanted(const TetMesh& mesh, const std::vector<double>& wanted, const SizeScope& scope) {
   const double regular = std::sqrt(2.0) / 12;  // volume of a regular tet of length 1
   double sum = 0;
   for (std::uint32_t i = 0; i < mesh.tet_slots(); ++i) {
     const TetHandle t(i);
-    if (mesh.is_deleted(t)) continue;
+    if (mesh.is_deleted(t) || (scope.has_tet && !scope.has_tet(t))) continue;
     const TetVertices& v = mesh.vertices(t);
     const Point& p = mesh.point(v[0]);
     const double volume =
@@ -43,67 +46,120 @@ double tets_wanted(const TetMesh& mesh, const std::vector<double>& wanted) {
   return sum / regular;
 }
 
-void count(SizeStatistics& sizes, double length) {
+void count(SizeCounts& sizes, double length) {
   ++sizes.edges;
   const auto& bounds = SizeStatistics::kBounds;
   const auto bin = std::upper_bound(bounds.begin(), bounds.end(), length) - bounds.begin();
   ++sizes.histogram[static_cast<std::size_t>(bin)];
+  if (WantedLengths::fit(length) >= 1) ++sizes.in_range;
   if (length >= 0.5 && length <= 2) ++sizes.within_two;
   sizes.shortest = std::min(sizes.shortest, length);
   sizes.longest = std::max(sizes.longest, length);
 }
 
-}  // namespace
-
-SizeStatistics size_statistics(const TetMesh& mesh) {
-  const WantedLengths& field = *mesh.size_field()->wanted();
-  std::vector<double> wanted(mesh.vertex_slots(), 0);
-  for_chunks(wanted.size(), [&](std::size_t begin, std::size_t end) {
+std::vector<double> lengths_at_vertices(const TetMesh& mesh, const WantedLengths& wanted) {
+  std::vector<double> lengths(mesh.vertex_slots(), 0);
+  for_chunks(lengths.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const VertexHandle v(static_cast<std::uint32_t>(i));
-      if (!mesh.is_deleted(v)) wanted[i] = field.length(mesh.point(v));
+      if (!mesh.is_deleted(v)) lengths[i] = wanted.length(mesh.point(v));
     }
   });
-  std::vector<std::uint64_t> edges;
-  std::vector<std::uint64_t> on_surface;
-  for (std::uint32_t i = 0; i < mesh.tet_slots(); ++i) {
-    const TetHandle t(i);
-    if (mesh.is_deleted(t)) continue;
-    const TetVertices& v = mesh.vertices(t);
-    for (const auto& [j, k] : kEdgeVertices) edges.push_back(key_of_edge(v[j], v[k]));
-    for (unsigned f = 0; f < 4; ++f) {
-      const HalfFace face(t, f);
-      if (!mesh.is_boundary(face) && !mesh.is_constrained(face)) continue;
-      const auto [a, b, c] = mesh.vertices(face);
-      for (const std::uint64_t key : {key_of_edge(a, b), key_of_edge(b, c), key_of_edge(c, a)}) {
-        on_surface.push_back(key);
+  return lengths;
+}
+
+/// Keys of edges, each once.
+struct EdgeKeys {
+  std::vector<std::uint64_t> all;
+  std::vector<std::uint64_t> on_surface;  ///< or on another wall
+
+  EdgeKeys(const TetMesh& mesh, const SizeScope& scope) {
+    const auto add = [&](VertexHandle a, VertexHandle b, std::vector<std::uint64_t>& keys) {
+      if (!scope.has_edge || scope.has_edge(a, b)) keys.push_back(key_of_edge(a, b));
+    };
+    for (std::uint32_t i = 0; i < mesh.tet_slots(); ++i) {
+      const TetHandle t(i);
+      if (mesh.is_deleted(t)) continue;
+      const TetVertices& v = mesh.vertices(t);
+      for (const auto& [j, k] : kEdgeVertices) add(v[j], v[k], all);
+      for (unsigned f = 0; f < 4; ++f) {
+        const HalfFace face(t, f);
+        if (!mesh.is_boundary(face) && !mesh.is_constrained(face)) continue;
+        const auto [a, b, c] = mesh.vertices(face);
+        add(a, b, on_surface);
+        add(b, c, on_surface);
+        add(c, a, on_surface);
       }
     }
+    sort_once(all);
+    sort_once(on_surface);
   }
-  sort_once(edges);
-  sort_once(on_surface);
-  SizeStatistics sizes;
-  sizes.shortest = edges.empty() ? 0 : std::numeric_limits<double>::infinity();
-  std::size_t in_range = 0;
-  for (const std::uint64_t key : edges) {
+};
+
+}  // namespace
+
+void SizeCounts::add(const SizeCounts& other) {
+  edges += other.edges;
+  for (std::size_t i = 0; i < histogram.size(); ++i) histogram[i] += other.histogram[i];
+  in_range += other.in_range;
+  within_two += other.within_two;
+  shortest = std::min(shortest, other.shortest);
+  longest = std::max(longest, other.longest);
+  on_surface += other.on_surface;
+  between_walls += other.between_walls;
+  tets_wanted += other.tets_wanted;
+}
+
+SizeStatistics SizeCounts::statistics() const {
+  const auto all = static_cast<double>(std::max<std::uint64_t>(edges, 1));
+  SizeStatistics sizes{.edges = edges,
+                       .in_range = static_cast<double>(in_range) / all,
+                       .within_two = static_cast<double>(within_two) / all,
+                       .shortest = edges == 0 ? 0 : shortest,
+                       .longest = longest,
+                       .on_surface = on_surface,
+                       .between_walls = between_walls,
+                       .tets_wanted = tets_wanted};
+  std::copy(histogram.begin(), histogram.end(), sizes.histogram.begin());
+  return sizes;
+}
+
+SizeCounts count_sizes(const TetMesh& mesh, const WantedLengths& wanted, const SizeScope& scope) {
+  const std::vector<double> lengths = lengths_at_vertices(mesh, wanted);
+  const EdgeKeys keys(mesh, scope);
+  SizeCounts sizes;
+  for (const std::uint64_t key : keys.all) {
     const VertexHandle a(static_cast<std::uint32_t>(key >> 32));
     const VertexHandle b(static_cast<std::uint32_t>(key));
     const double length = WantedLengths::relative_length((mesh.point(a) - mesh.point(b)).norm(),
-                                                         wanted[a.index()], wanted[b.index()]);
+                                                         lengths[a.index()], lengths[b.index()]);
     count(sizes, length);
-    if (WantedLengths::fit(length) >= 1) {
-      ++in_range;
-    } else if (std::binary_search(on_surface.begin(), on_surface.end(), key)) {
+    if (WantedLengths::fit(length) >= 1) continue;
+    if (std::binary_search(keys.on_surface.begin(), keys.on_surface.end(), key)) {
       ++sizes.on_surface;
     } else if (mesh.is_fixed(a) && mesh.is_fixed(b)) {
       ++sizes.between_walls;
     }
   }
-  const auto all = static_cast<double>(std::max<std::size_t>(edges.size(), 1));
-  sizes.in_range = static_cast<double>(in_range) / all;
-  sizes.within_two /= all;
-  sizes.tets_wanted = tets_wanted(mesh, wanted);
+  sizes.tets_wanted = tets_wanted(mesh, lengths, scope);
   return sizes;
+}
+
+SizeStatistics size_statistics(const TetMesh& mesh) {
+  return count_sizes(mesh, *mesh.size_field()->wanted()).statistics();
+}
+
+std::vector<std::string> remarks_on(const SizeStatistics& before, const Options& options) {
+  constexpr double kMost = 1e9;  // what handles can name
+  const double tets = before.tets_wanted;
+  if (tets > kMost && options.tets.empty()) {  // a slip of a digit: more than any memory holds
+    throw OptionError("size", fmt::format("size: so short edges make about {:.2g} tets, and a mesh "
+                                          "has at most {:.0g}",
+                                          tets, kMost));
+  }
+  if (tets >= 1) return {};
+  return {
+      "one tet of the wanted size is larger than the whole mesh: is --size a length of this file?"};
 }
 
 }  // namespace tetmend::face

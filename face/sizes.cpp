@@ -2,6 +2,7 @@
 #include "face/sizes.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -61,7 +62,7 @@ std::vector<Label> take_labels(std::string_view whole, std::string_view& rest) {
 }
 
 Spec read_spec(const std::string& text) {
-  Spec spec{.text = text, .file = {}, .name = {}, .labels = {}};
+  Spec spec{.text = text, .file = {}, .name = {}, .function = {}, .labels = {}};
   std::string_view rest = text;
   spec.labels = take_labels(text, rest);
   const std::filesystem::path path = std::string(rest);
@@ -74,6 +75,12 @@ Spec read_spec(const std::string& text) {
   if (path.extension() == ".sol" || path.extension() == ".solb") {
     spec.kind = Spec::Kind::file;
     spec.file = rest;
+    return spec;
+  }
+  if (path.extension() == ".lua") {
+    spec.kind = Spec::Kind::function;
+    spec.file = rest;
+    spec.function = std::make_shared<const LuaFunction>(path, "size");
     return spec;
   }
   if (const auto colon = rest.rfind(':'); colon != std::string_view::npos) {
@@ -91,8 +98,9 @@ Spec read_spec(const std::string& text) {
     throw wrong_size(
         text,
         "is no size: expected a length such as 0.5, a factor such as 0.5x, array:NAME, "
-        "a file FILE.sol or FILE.solb, or MESH:NAME, an array of another mesh, and label:L= "
-        "before it for a region");
+        "a file FILE.sol or FILE.solb, a function size(x, y, z) in FILE.lua, or MESH:NAME, an "
+        "array "
+        "of another mesh, and label:L= before it for a region");
   }
   if (!(std::isfinite(*number) && *number > 0)) throw wrong_size(text, "is not above 0");
   spec.number = *number;
@@ -235,6 +243,10 @@ class LinearLengths {
   TetLocator locator_;
 };
 
+double call(const LuaFunction& function, const Point& at) {
+  return function(std::array{at.x(), at.y(), at.z()});
+}
+
 /// @throws Error for a length that is none; `length` as the file has it
 void check_length(const Spec& spec, std::size_t point, double length) {
   if (std::isfinite(length) && length > 0) return;
@@ -293,6 +305,11 @@ std::vector<double> lengths_of(const Spec& spec, const MeshData& data, const Tet
     case Spec::Kind::file:
       lengths = formats::read_medit_sizes(spec.file);
       break;
+    case Spec::Kind::function:
+      for (const Point& p : data.points) {
+        lengths.push_back(call(*spec.function, mesh.scale().to_file(p)));
+      }
+      break;
     case Spec::Kind::background: {
       const Background background(
           spec, mesh.scale(), [](double length) { return length; }, 0);
@@ -347,29 +364,57 @@ bool Sizes::is_alone(Spec::Kind kind) const {
   return specs_.size() == 1 && specs_[0].kind == kind && specs_[0].labels.empty();
 }
 
-std::shared_ptr<const WantedLengths> Sizes::field(const MeshData& data, const TetMesh& mesh) const {
-  const Scale& scale = mesh.scale();
-  if (function_) {
-    return std::make_shared<WantedLengths>([*this, scale](const Point& place) {
-      const Point at = scale.to_file(place);
-      const double length = function_(at.x(), at.y(), at.z());
-      if (!(std::isfinite(length) && length > 0)) {
-        throw Error(fmt::format("size_at: {:g} at ({:g}, {:g}, {:g}) is no length", length, at.x(),
-                                at.y(), at.z()));
-      }
-      return scale.to_work(clamped(length));
-    });
+std::shared_ptr<const WantedLengths> Sizes::field_of(Function function, std::string name,
+                                                     const Scale& scale) const {
+  const auto within = [*this](double length) { return clamped(length); };
+  return std::make_shared<WantedLengths>(
+      [function = std::move(function), name = std::move(name), within, scale](const Point& place) {
+        const Point at = scale.to_file(place);
+        const double length = function(at.x(), at.y(), at.z());
+        if (!(std::isfinite(length) && length > 0)) {
+          throw Error(fmt::format("{}: {:g} at ({:g}, {:g}, {:g}) is no length", name, length,
+                                  at.x(), at.y(), at.z()));
+        }
+        return scale.to_work(within(length));
+      });
+}
+
+std::string Sizes::of_mesh() const {
+  for (const Spec& spec : specs_) {
+    using Kind = Spec::Kind;
+    const bool is_of_place =
+        is_alone(Kind::constant) || is_alone(Kind::function) || is_alone(Kind::background);
+    if (!is_of_place) return spec.text;
+  }
+  return {};
+}
+
+std::shared_ptr<const WantedLengths> Sizes::field_of_places() const {
+  return field_of_places(Scale());
+}
+
+/// Null: the lengths are of the mesh.
+std::shared_ptr<const WantedLengths> Sizes::field_of_places(const Scale& scale) const {
+  if (function_) return field_of(function_, "size_at", scale);
+  if (is_alone(Spec::Kind::function)) {
+    const auto by_script = [function = specs_[0].function](double x, double y, double z) {
+      return call(*function, Point(x, y, z));
+    };
+    return field_of(by_script, specs_[0].text, scale);
   }
   if (is_alone(Spec::Kind::constant)) {
     return std::make_shared<WantedLengths>(scale.to_work(clamped(specs_[0].number)));
   }
-  const double rate = gradation_ > 0 ? gradation_ - 1 : 0;
-  if (is_alone(Spec::Kind::background)) {  // which may be finer than the mesh
-    const auto within = [this](double length) { return clamped(length); };
-    const auto background = std::make_shared<const Background>(specs_[0], scale, within, rate);
-    return std::make_shared<WantedLengths>(
-        [background](const Point& place) { return background->at(place); });
-  }
+  if (!is_alone(Spec::Kind::background)) return nullptr;
+  const auto within = [this](double length) { return clamped(length); };
+  const auto background = std::make_shared<const Background>(specs_[0], scale, within, rate());
+  return std::make_shared<WantedLengths>(
+      [background](const Point& place) { return background->at(place); });
+}
+
+std::shared_ptr<const WantedLengths> Sizes::field(const MeshData& data, const TetMesh& mesh) const {
+  const Scale& scale = mesh.scale();
+  if (auto of_places = field_of_places(scale)) return of_places;
   constexpr double kNone = std::numeric_limits<double>::infinity();
   std::vector<double> lengths(data.points.size(), kNone);
   // Sizes for everywhere first; where several regions meet, the least counts.
@@ -394,7 +439,7 @@ std::shared_ptr<const WantedLengths> Sizes::field(const MeshData& data, const Te
     if (lengths[i] == kNone) lengths[i] = present[i];
     lengths[i] = scale.to_work(clamped(scale.to_file(lengths[i])));
   }
-  if (rate > 0) grade(data, rate, lengths);
+  if (rate() > 0) grade(data, rate(), lengths);
   auto linear = std::make_shared<const LinearLengths>(data, std::move(lengths));
   return std::make_shared<WantedLengths>(
       [linear](const Point& place) { return linear->at(place); });

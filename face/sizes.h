@@ -2,6 +2,7 @@
 // The lengths that the options want edges to have.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -11,6 +12,7 @@
 #include "kernel/mesh_data.h"
 #include "kernel/tet_mesh.h"
 #include "kernel/wanted_lengths.h"
+#include "schedule/lua_function.h"
 
 namespace tetmend::face {
 
@@ -21,35 +23,45 @@ class Sizes {
   explicit Sizes(const Options& options);
 
   bool are_wanted() const { return !specs_.empty() || function_; }
+  /// The first of Options::size that only the whole mesh tells: an array of its own, a factor, a region.
+  /// Empty: the lengths are of places.
+  std::string of_mesh() const;
+  /// The field where they are of places, for a mesh in the lengths of its file. Precondition: of_mesh() is empty.
+  /// @throws Error for a file or array that cannot be used
+  std::shared_ptr<const WantedLengths> field_of_places() const;
   /// The field. Lengths at points of the mesh are linear in its tets.
   /// @param data the mesh as its file has it, but in the lengths of `mesh`; must outlive the field
   /// @throws Error for a file or array that cannot be used, OptionError for a label that no tet has
   /// Cost: about n log n.
   std::shared_ptr<const WantedLengths> field(const MeshData& data, const TetMesh& mesh) const;
 
-  /// "array:h", "h.sol", "coarse.vtu:h", "0.5", "0.5x", one of them behind "label:1,4=".
+  /// "array:h", "h.sol", "coarse.vtu:h", "h.lua", "0.5", "0.5x", one of them behind "label:1,4=".
   struct Spec {
-    enum class Kind { constant, factor, array, file, background };
+    enum class Kind { constant, factor, array, file, background, function };
     std::string text;  ///< as the user wrote it
     Kind kind = Kind::constant;
-    double number = 0;          ///< of a constant or factor
-    std::string file;           ///< of lengths, or a background mesh
-    std::string name;           ///< of an array
-    std::vector<Label> labels;  ///< of the regions; empty: everywhere
+    double number = 0;                            ///< of a constant or factor
+    std::string file;                             ///< of lengths, or a background mesh
+    std::string name;                             ///< of an array
+    std::shared_ptr<const LuaFunction> function;  ///< "size" of a script
+    std::vector<Label> labels;                    ///< of the regions; empty: everywhere
   };
 
  private:
+  using Function = std::function<double(double, double, double)>;
+
   bool is_alone(Spec::Kind kind) const;
+  std::shared_ptr<const WantedLengths> field_of(Function function, std::string name,
+                                                const Scale& scale) const;
+  std::shared_ptr<const WantedLengths> field_of_places(const Scale& scale) const;
+  double rate() const { return gradation_ > 0 ? gradation_ - 1 : 0; }
   double clamped(double length) const;
 
   std::vector<Spec> specs_;
-  std::function<double(double, double, double)> function_;
+  Function function_;
   double gradation_;
   double smallest_;
   double largest_;
 };
-
-/// How the edges of a mesh keep to its wanted lengths. Precondition: it has them. Cost: n log n.
-SizeStatistics size_statistics(const TetMesh& mesh);
 
 }  // namespace tetmend::face

@@ -110,6 +110,7 @@ void Figures::add(const Figures& other) {
   protected_bad_tets += other.protected_bad_tets;
   misfits += other.misfits;
   rulers.add(other.rulers);
+  sizes.add(other.sizes);
 }
 
 Bounds bounds_of_own(const Piece& gathered, const Parting& parting, std::uint32_t number,
@@ -178,6 +179,9 @@ class OwnOf {
   bool has(const PieceTet& tet) const { return is_own(tet.vertices, parts_, number_); }
   std::uint32_t part() const { return number_; }
   bool has(VertexHandle v) const { return parts_[mesh_.origin(v)] == number_; }
+  bool has(VertexHandle a, VertexHandle b) const {
+    return is_own(std::array{mesh_.origin(a), mesh_.origin(b)}, parts_, number_);
+  }
   RulerScope scope() const {
     return {.has_face = [this](HalfFace face) { return has(mesh_.vertices(face)); },
             .has_vertex = [this](VertexHandle v) { return has(v); }};
@@ -300,10 +304,29 @@ void measure_all(const TetMesh& mesh, const OwnOf& own, Survey* survey, Figures&
   survey->lengths.add(mesh, [&](VertexHandle v) { return own.number_in_file(v, *survey); });
 }
 
+face::SizeCounts sizes_of_own(const TetMesh& mesh, std::span<const std::uint32_t> numbers,
+                              const Piece& gathered, const OwnOf& own,
+                              const WantedLengths& of_file) {
+  const auto field = in_work(of_file, mesh.scale());
+  const WantedLengths& wanted = *field;
+  const auto has_tet = [&](TetHandle t) { return own.has(gathered.tets[numbers[t.index()]]); };
+  const auto is_inside = [&](VertexHandle a, VertexHandle b) { return own.has(a) && own.has(b); };
+  const auto is_shared = [&](VertexHandle a, VertexHandle b) {
+    return own.has(a, b) && !is_inside(a, b);
+  };
+  const auto none = [](TetHandle) { return false; };
+  face::SizeCounts all = face::count_sizes(mesh, wanted, {is_inside, has_tet});
+  face::SizeCounts shared = face::count_sizes(mesh, wanted, {is_shared, none});
+  shared.between_walls = 0;  // vertices of other parts are cut
+  all.add(shared);
+  return all;
+}
+
 }  // namespace
 
 Figures measure_own(const Piece& gathered, const Parting& parting, std::uint32_t number,
-                    const Standard& standard, Survey* survey, const HeldSurface* surface) {
+                    const Standard& standard, Survey* survey, const WantedLengths* wanted,
+                    const HeldSurface* surface) {
   Figures figures;
   if (!gathered.tets.empty()) {
     BuildReport report;
@@ -313,6 +336,7 @@ Figures measure_own(const Piece& gathered, const Parting& parting, std::uint32_t
                        (report.mirrored ? gathered.tets.size() : 0);
     const OwnOf own(mesh, gathered, parting, number);
     measure_all(mesh, own, survey, figures);
+    if (wanted != nullptr) figures.sizes = sizes_of_own(mesh, numbers, gathered, own, *wanted);
     if (surface != nullptr) {
       figures.misfits = surface->count_misfits(mesh, gathered, parting, number);
     }

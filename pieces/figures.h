@@ -13,6 +13,7 @@
 #include "face/advice.h"
 #include "face/growth.h"
 #include "face/portrait.h"
+#include "face/size_statistics.h"
 #include "kernel/bounds.h"
 #include "kernel/ruler_shares.h"
 #include "kernel/statistics.h"
@@ -36,6 +37,7 @@ struct Figures {
   std::size_t protected_bad_tets = 0;  ///< of them
   std::size_t misfits = 0;             ///< see HeldSurface::count_misfits()
   RulerShare rulers;                   ///< of all that is its own
+  face::SizeCounts sizes;              ///< likewise, where lengths are wanted
 
   void add(const Figures& other);
 };
@@ -106,9 +108,12 @@ Bounds bounds_of_own(const Piece& gathered, const Parting& parting, std::uint32_
 /// Builds all of a piece, which fails where a face has more than two tets, and measures what is its
 /// own. A face is that of the piece with the lowest part of its vertices: all its tets are there.
 /// @param survey null: rulers are not measured
+/// @param wanted null: lengths are free. Of an edge out of its range that two parts share nobody knows whether
+/// both ends are fixed; it does not count for `between_walls`.
 /// @param surface null: it is fixed
 Figures measure_own(const Piece& gathered, const Parting& parting, std::uint32_t number,
-                    const Standard& standard, Survey* survey, const HeldSurface* surface = nullptr);
+                    const Standard& standard, Survey* survey, const WantedLengths* wanted,
+                    const HeldSurface* surface = nullptr);
 
 /// Counts the rulers of what is its own. @param counts  their bins are set
 void count_own(const Piece& gathered, const Parting& parting, std::uint32_t number,

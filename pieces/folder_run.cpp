@@ -37,6 +37,7 @@ class Tools {
         watcher_(options),
         settings_(plan_.schedule, plan_.settings),
         task_{plan_.registry, plan_.schedule, settings_, plan_.standard} {
+    if (plan_.sizes.are_wanted()) task_.size_field = plan_.sizes.field_of_places();
     task_.check_operators = options.check_operators;
     task_.watch = [this](Run& run) {
       run.set_listener(&watcher_);

@@ -19,6 +19,7 @@
 #include "face/plan.h"
 #include "face/recorded.h"
 #include "face/regions.h"
+#include "face/size_statistics.h"
 #include "face/surface_marks.h"
 #include "face/watcher.h"
 #include "face/worse.h"
@@ -82,6 +83,7 @@ class Improvement {
  private:
   void prepare();
   TetMesh build();
+  void hold_lengths(TetMesh& mesh);
   void measure_before(const TetMesh& mesh);
   MeshData source(const TetMesh& mesh) const;
   void work();
@@ -144,8 +146,7 @@ void Improvement::prepare() {
   result_.protected_bad_tets = part.bad_tets;
   result_.layer_tets = part.layer_tets;
   result_.layer_bad_tets = part.layer_bad_tets;
-  if (options_.keep_size && mesh.scale().is_one())
-    size_field_ = std::make_shared<UsualLengths>(mesh);
+  hold_lengths(mesh);
   measure_before(mesh);
   std::vector<char> is_protected(input_.tets.size(), 0);
   for (std::uint32_t slot = 0; slot < mesh.tet_slots(); ++slot) {
@@ -158,10 +159,26 @@ void Improvement::prepare() {
   divided_.end_slices();
 }
 
+void Improvement::hold_lengths(TetMesh& mesh) {
+  if (plan_.sizes.are_wanted()) {
+    if (!mesh.scale().is_one()) {  // the field is to be one of the file
+      throw Error("size: lengths so far from ordinary cannot be adapted in pieces: scale the mesh");
+    }
+    size_field_ = plan_.sizes.field(input_, mesh);
+  } else if (options_.keep_size && mesh.scale().is_one()) {
+    size_field_ = std::make_shared<UsualLengths>(mesh);
+  }
+  mesh.set_size_field(size_field_);
+}
+
 void Improvement::measure_before(const TetMesh& mesh) {
   const Stopwatch watch(result_.measuring);
   result_.before = compute_statistics(mesh, options_.goal);
   result_.rulers_before = measure_rulers(mesh);
+  if (plan_.sizes.are_wanted()) {
+    result_.sizes_before = face::size_statistics(mesh);
+    for (const std::string& text : face::remarks_on(*result_.sizes_before, options_)) note(text);
+  }
   lengths_ = face::LocalLengths(mesh, input_.points.size());
   surface_before_ = result_.surface_fingerprint_before = surface_fingerprint(mesh);
   result_.not_positive_before = count_not_positive(mesh, result_.before);
@@ -274,6 +291,10 @@ void Improvement::measure_after(Joined& joined) {
   mesh.freeze([&](TetHandle t) { return joined.is_protected[numbers[t.index()]] != 0; });
   result_.after = compute_statistics(mesh, options_.goal);
   result_.rulers_after = measure_rulers(mesh);
+  if (plan_.sizes.are_wanted()) {
+    mesh.set_size_field(size_field_);
+    result_.sizes_after = face::size_statistics(mesh);
+  }
   face::LocalLengths now(input_.points.size());
   now.add(mesh, [&](VertexHandle v) {
     const std::uint32_t number = joined.vertex_origins[mesh.origin(v)];
@@ -372,9 +393,6 @@ Pass to_pass(const StepRecord& record) {
 void check(const Options& options, const Division& division) {
   tetmend::check(options);
   if (division.pieces <= 1) return;
-  if (!options.size.empty() || options.size_at) {
-    throw OptionError("size", "size: a mesh in pieces cannot be adapted to lengths");
-  }
   constexpr std::size_t kMostPieces = 65'535;
   if (division.pieces > kMostPieces) {
     throw OptionError("pieces",

@@ -15,6 +15,7 @@
 #include "envelope/kept_points.h"
 #include "face/carry.h"
 #include "face/regions.h"
+#include "face/sizes.h"
 #include "face/surface_marks.h"
 #include "face/worse.h"
 #include "kernel/formats/medit_vectors.h"
@@ -285,7 +286,8 @@ void check_for_files(const Options& options) {
     throw OptionError(name, fmt::format("{}: needs the whole mesh in memory", option));
   };
   refuse(options.keep_size, "keep_size", "keep-size");
-  refuse(!options.size.empty() || options.size_at, "size", "size");
+  const std::string size = face::Sizes(options).of_mesh();
+  refuse(!size.empty(), "size", fmt::format("size: '{}'", size));
   refuse(options.ignore_interior, "ignore_interior", "ignore-interior");
   refuse(options.straighten, "straighten", "straighten");
 }
@@ -317,6 +319,10 @@ void check_after(const Measured& measured_before, const Measured& measured_after
   result.rulers_after = measured_after.rulers;
   if (measured_before.rulers && measured_after.rulers) {
     result.size_drift = measured_before.lengths.drift_to(measured_after.lengths);
+  }
+  if (before.sizes.edges > 0) {
+    result.sizes_before = before.sizes.statistics();
+    result.sizes_after = after.sizes.statistics();
   }
   result.before = before.statistics;
   result.not_positive_before = before.not_positive;

@@ -109,6 +109,7 @@ Result FileRun::run() {
   result_.goal = options_.goal;
   const AimSettings settings(plan_.schedule, plan_.settings);
   TaskOptions task{plan_.registry, plan_.schedule, settings, plan_.standard};
+  if (plan_.sizes.are_wanted()) task.size_field = plan_.sizes.field_of_places();
   task.fault = files_.fault;
   task.trace = &trace_;
   task.check_operators = options_.check_operators;
@@ -220,6 +221,13 @@ void FileRun::measure_before() {
   before_ = steps_->measure_before(wanted);
   const MeshStatistics& before = before_.figures.statistics;
   check_before(before_.figures, options_, files_.input);
+  if (before_.figures.sizes.edges > 0) {
+    const SizeStatistics sizes = before_.figures.sizes.statistics();
+    for (const std::string& text : face::remarks_on(sizes, options_)) {
+      result_.notes.push_back(text);
+      watcher_.noted(text);
+    }
+  }
   result_.before = before;
   steps_->set_limits(
       {before.tets, before.n_bad, plan_.growth.most(before.tets).value_or(RunLimits().most_tets)});

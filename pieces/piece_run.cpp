@@ -230,7 +230,7 @@ Measured PieceRun::measure_before(const Wanted& wanted, Shelf* next) {
     const Parting& parting = mesh_.state().parting;
     const auto number = static_cast<std::uint32_t>(part);
     mine.push_back({part, measure_own(piece, parting, number, options_.standard,
-                                      survey ? &*survey : nullptr)});
+                                      survey ? &*survey : nullptr, options_.wanted())});
     bounds.widen(bounds_of_own(piece, parting, number, options_.standard));
   }
   agree_on_bounds(bounds);
@@ -497,8 +497,9 @@ Measured PieceRun::measure_after(const Wanted& wanted, const Measured& before, S
     if (surface_) surface_->label_points(gathered, mesh_.first_added());
     const auto number = static_cast<std::uint32_t>(part);
     const Parting& parting = mesh_.state().parting;
-    mine.push_back({part, measure_own(gathered, parting, number, options_.standard,
-                                      survey ? &*survey : nullptr, surface_.get())});
+    mine.push_back(
+        {part, measure_own(gathered, parting, number, options_.standard,
+                           survey ? &*survey : nullptr, options_.wanted(), surface_.get())});
     if (measured.histograms) count_own(gathered, parting, number, *measured.histograms);
     const Piece own = own_part(gathered, parting, number);
     if (surface_) shares.emplace_back(part, share_of(own));

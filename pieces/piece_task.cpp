@@ -16,6 +16,7 @@
 #include "kernel/mesh_view.h"
 #include "kernel/size_field.h"
 #include "kernel/statistics.h"
+#include "kernel/wanted_lengths.h"
 #include "pieces/standing.h"
 
 namespace tetmend::pieces {
@@ -179,15 +180,17 @@ TaskResult Task::run(const TaskLimits& limits) {
   const bool is_sound = build();
   if (is_sound) {
     freeze(limits);
-    mesh_.set_bounds(limits.bounds);
-    mesh_.set_size_field(options_.size_field);
+    mesh_.set_bounds(options_.wanted() != nullptr ? Bounds() : limits.bounds);
+    mesh_.set_size_field(options_.wanted() == nullptr ? options_.size_field
+                                                      : in_work(*options_.wanted(), mesh_.scale()));
     if (surface_ != nullptr) mesh_.set_surface_guard(surface_->guard(mesh_, gathered_));
     const Goal& goal = options_.standard.goal();
     const bool may_pay = limits.spare_bad > 0;
     const Reached before(mesh_, goal, may_pay);
     run_schedule(limits);
     const Reached after(mesh_, goal, may_pay);
-    result_.went_back = is_worse(before, after, goal, limits.spare_bad);
+    result_.went_back =
+        options_.wanted() == nullptr && is_worse(before, after, goal, limits.spare_bad);
   }
   if (!is_sound || result_.went_back) build();
   take_back();
@@ -239,7 +242,7 @@ void Task::run_schedule(const TaskLimits& limits) {
     if (mesh_.surface_guard() != nullptr && !run.cancelled()) {
       run.set_standard(options_.standard);
       ScheduleSettings settings;
-      if (!limits.is_zone) settings.emplace_back("max_rounds", "0");
+      if (!limits.is_zone || options_.wanted() != nullptr) settings.emplace_back("max_rounds", "0");
       if (run.indicators().n_bad > 0) improve(run, Schedule::builtin("surface"), settings);
     }
   } catch (...) {
@@ -359,6 +362,13 @@ AimSettings::AimSettings(const Schedule& schedule, const ScheduleSettings& setti
     set(aim, "polish_first", "0");
     set(aim, "polish_last", "0");
   }
+}
+
+std::shared_ptr<const WantedLengths> in_work(const WantedLengths& of_file, const Scale& scale) {
+  if (scale.is_one()) return {std::shared_ptr<const WantedLengths>(), &of_file};
+  return std::make_shared<WantedLengths>([&of_file, scale](const Point& p) {
+    return scale.to_work(of_file.length(scale.to_file(p)));
+  });
 }
 
 TaskResult work_on(const Piece& gathered, const Parting& parting, std::uint32_t number,

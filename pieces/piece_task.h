@@ -11,6 +11,7 @@
 #include <optional>
 
 #include "kernel/bounds.h"
+#include "kernel/size_field.h"
 #include "pieces/held_surface.h"
 #include "pieces/parting.h"
 #include "pieces/piece.h"
@@ -54,7 +55,13 @@ struct TaskOptions {
   bool check_operators = false;  ///< Options::check_operators
   /// Changes a piece before it is stored, as a fault would: for tests of what notices that.
   std::function<void(std::size_t number, Piece& piece)> fault = {};
+
+  /// Where the mesh is adapted to lengths, so that what is there is no bound; else null.
+  const WantedLengths* wanted() const { return size_field ? size_field->wanted() : nullptr; }
 };
+
+/// The lengths of a file in those of a mesh. `of_file` must outlive it.
+std::shared_ptr<const WantedLengths> in_work(const WantedLengths& of_file, const Scale& scale);
 
 /// What differs from piece to piece.
 struct TaskLimits {

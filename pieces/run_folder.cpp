@@ -24,7 +24,7 @@ constexpr std::string_view kMadeFolder = "tetmend made this folder\n";
 
 /// What a file of this version begins with.
 std::string signature() {
-  return fmt::format("tetmend {}: a run in pieces, 11\n", version());
+  return fmt::format("tetmend {}: a run in pieces, 12\n", version());
 }
 
 void append(const SavedRun& saved, std::string& bytes) {

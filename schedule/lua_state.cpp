@@ -210,7 +210,7 @@ int add_place(lua_State* lua) {
 }
 
 /// Words, and a table of globals without any: it will hold what the script makes.
-int set_up(lua_State* lua) {
+int make_names(lua_State* lua) {
   push_library(lua);
   lua_setfield(lua, LUA_REGISTRYINDEX, kWords);
   make_globals(lua);
@@ -268,7 +268,7 @@ LuaState::LuaState(Limits limits, Watch watch) : box_(std::make_unique<LuaBox>()
   lua_.reset(lua_newstate(allocate, box_.get()));
   if (lua_ == nullptr) throw std::bad_alloc();
   *static_cast<LuaBox**>(lua_getextraspace(lua_.get())) = box_.get();
-  call(set_up, nullptr);
+  set_up(make_names, nullptr);
 }
 
 LuaState::~LuaState() = default;
@@ -277,7 +277,7 @@ void LuaState::Close::operator()(lua_State* lua) const {
   lua_close(lua);
 }
 
-void LuaState::call(lua_CFunction function, void* what) {
+void LuaState::set_up(lua_CFunction function, void* what) {
   lua_pushcfunction(lua_.get(), function);
   lua_pushlightuserdata(lua_.get(), what);
   const int status = lua_pcall(lua_.get(), 1, 0, 0);
@@ -307,7 +307,7 @@ int LuaState::add_to_table(lua_State* lua) {
 }
 
 void LuaState::add(Addition addition) {
-  call(add_to_table, &addition);
+  set_up(add_to_table, &addition);
 }
 
 void LuaState::add_word(const std::string& name, Word word, lua_CFunction front) {
@@ -323,27 +323,77 @@ void LuaState::add_metamethod(const char* table, const char* event, Word word,
   add({table, event, &box_->words.emplace_back(std::move(word)), front});
 }
 
+struct LuaState::NumberCall {
+  const char* function;
+  std::span<const double> arguments;
+  double result = 0;
+};
+
+int LuaState::call_with_numbers(lua_State* lua) {
+  auto& call = *static_cast<NumberCall*>(lua_touserdata(lua, 1));
+  const auto count = static_cast<int>(call.arguments.size());
+  luaL_checkstack(lua, count + 3, nullptr);
+  lua_rawgeti(lua, LUA_REGISTRYINDEX, LUA_RIDX_GLOBALS);
+  lua_pushstring(lua, call.function);
+  lua_rawget(lua, -2);
+  if (!lua_isfunction(lua, -1)) {
+    return luaL_error(lua, "the script has no function %s", call.function);
+  }
+  for (const double argument : call.arguments) lua_pushnumber(lua, argument);
+  lua_call(lua, count, 1);
+  if (lua_type(lua, -1) != LUA_TNUMBER) {
+    return luaL_error(lua, "%s returns a %s, but a number is wanted", call.function,
+                      luaL_typename(lua, -1));
+  }
+  call.result = lua_tonumber(lua, -1);
+  return 0;
+}
+
+double LuaState::call(const std::string& function, std::span<const double> arguments) {
+  lua_State* lua = lua_.get();
+  NumberCall call{function.c_str(), arguments};
+  lua_pushcfunction(lua, add_place);
+  lua_pushcfunction(lua, call_with_numbers);
+  lua_pushlightuserdata(lua, &call);
+  run_watched(1);
+  return call.result;
+}
+
 void LuaState::run(std::string_view text, const std::string& name) {
   lua_State* lua = lua_.get();
-  box_->pending = nullptr;
+  name_ = name;
   box_->start_of_messages = name_in_messages(name) + ":";
   lua_pushcfunction(lua, add_place);
   const std::string chunk = "@" + name;
-  int status = luaL_loadbufferx(lua, text.data(), text.size(), chunk.c_str(), "t");
-  if (status == LUA_OK) {
+  const int status = luaL_loadbufferx(lua, text.data(), text.size(), chunk.c_str(), "t");
+  if (status != LUA_OK) throw_failure(status);
+  run_watched(0);
+}
+
+void LuaState::run_watched(int arguments) {
+  lua_State* lua = lua_.get();
+  box_->pending = nullptr;
+  int status = LUA_OK;
+  {
     const Watching watching(lua, *box_);
-    status = lua_pcall(lua, 0, 0, -2);
+    status = lua_pcall(lua, arguments, 0, -2 - arguments);
   }
   box_->thrown = nullptr;
   if (box_->pending) {
     lua_settop(lua, 0);
     std::rethrow_exception(std::exchange(box_->pending, nullptr));
   }
-  if (status == LUA_OK) return lua_settop(lua, 0);
+  if (status != LUA_OK) throw_failure(status);
+  lua_settop(lua, 0);
+}
+
+/// The reason is on top of the stack.
+void LuaState::throw_failure(int status) {
+  lua_State* lua = lua_.get();
   const std::string message =
       status == LUA_ERRMEM
-          ? fmt::format("{}: the script needs more than {} MB", name, box_->limits.memory >> 20)
-          : message_of(lua, name);
+          ? fmt::format("{}: the script needs more than {} MB", name_, box_->limits.memory >> 20)
+          : message_of(lua, name_);
   lua_settop(lua, 0);
   throw Error(message);
 }

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <functional>
 #include <memory>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -61,6 +62,10 @@ class LuaState {
   /// @throws Error "NAME:LINE: reason" for a mistake in the script or its run, without control
   /// characters; whatever the watch or a word throws to stop; std::bad_alloc.
   void run(std::string_view text, const std::string& name);
+  /// Calls a function that the script which ran last has made, with numbers, for a number. Cost: about
+  /// 0.2 microseconds and what the function does.
+  /// @throws Error as run(), and where there is no such function or what it returns is no number
+  double call(const std::string& function, std::span<const double> arguments);
 
  private:
   struct Close {
@@ -73,10 +78,17 @@ class LuaState {
   static int add_to_table(lua_State* lua);
   /// Calls a function of Lua, outside of a script, with `what` as light userdata.
   /// @throws std::bad_alloc: only memory can be missing.
-  void call(lua_CFunction function, void* what);
+  void set_up(lua_CFunction function, void* what);
+  /// What a function of Lua needs to call one of the script.
+  struct NumberCall;
+  static int call_with_numbers(lua_State* lua);
+  /// What is on top of the stack, with so many arguments. @throws as run()
+  void run_watched(int arguments);
+  [[noreturn]] void throw_failure(int status);
 
   std::unique_ptr<LuaBox> box_;
   std::unique_ptr<lua_State, Close> lua_;
+  std::string name_;  // of the script that ran last
 };
 
 /// Charges work, in units of an instruction. May ask the watch, and raise an error. For functions

@@ -37,14 +37,18 @@ Schedule Schedule::builtin(std::string_view name) {
                           guess_of(name, names_of(builtin_schedules()))));
 }
 
-Schedule Schedule::from_file(const std::filesystem::path& file) {
+std::string read_script(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);
   std::string text{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
   if (!in.good() && !in.eof()) throw Error(fmt::format("{}: cannot read it", file.string()));
   if (text.size() > kLargestScript) {
     throw Error(fmt::format("{}: too large for a script", file.string()));
   }
-  return {file.string(), std::move(text)};
+  return text;
+}
+
+Schedule Schedule::from_file(const std::filesystem::path& file) {
+  return {file.string(), read_script(file)};
 }
 
 Schedule Schedule::find(const std::string& name_or_file) {

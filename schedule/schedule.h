@@ -17,6 +17,10 @@ namespace tetmend {
 /// @throws Error for an unknown name or a value of wrong type or range, with what is valid.
 void check_settings(const ScheduleInfo& info, const ScheduleSettings& settings);
 
+/// The text of a script.
+/// @throws Error when the file cannot be read, or is too large.
+std::string read_script(const std::filesystem::path& file);
+
 /// The text of a Lua script and its name. docs/schedules.md describes the language.
 class Schedule {
  public:

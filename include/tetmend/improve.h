@@ -103,7 +103,8 @@ struct Options {
   bool keep_size = false;
   /// How long edges are to be: "0.5"; "0.5x", half of what they are; "array:h", an array of the points;
   /// "h.sol" or "h.solb", a file of MEDIT with one length for each point; "coarse.vtu:h", an array of the
-  /// points of another mesh. Behind "label:1,4=" one of these for a region; regions without a size keep theirs. See adapt(). Empty: as long as it comes.
+  /// points of another mesh; "h.lua", a script with a function size(x, y, z). Behind "label:1,4=" one of these for a
+  /// region; regions without a size keep theirs. See adapt(). Empty: as long as it comes.
   std::vector<std::string> size = {};
   /// The same as a function of x, y and z, instead of `size`: lengths above 0, the same whenever it is
   /// asked; by several threads at once. Neither graded nor by region.

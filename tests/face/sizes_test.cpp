@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 #include <string>
 #include <vector>
 
@@ -134,6 +135,46 @@ TEST_CASE("an array of another mesh is linear in the tets of that one, however c
   }
   Mesh mesh = cube();
   CHECK_THROWS_AS(adapt(mesh, {.size = {"not_there.vtu:h"}}), Error);
+}
+
+TEST_CASE("sizes by a function of a script: as by one of the program, on any number of threads") {
+  const test::TempFolder folder;
+  const auto file_of = [&](const std::string& name, const std::string& text) {
+    const std::filesystem::path file = folder / name;
+    std::ofstream(file) << text;
+    return file.string();
+  };
+  const std::string slope =
+      file_of("slope.lua", "function size(x, y, z) return 0.06 + 0.1 * x end");
+  Mesh by_program = cube();
+  adapt(by_program, {.size_at = [](double x, double, double) { return 0.06 + 0.1 * x; }});
+  for (const int threads : {1, 2}) {
+    Mesh mesh = cube();
+    adapt(mesh, {.threads = threads, .size = {slope}});
+    CHECK(MeshAccess::data(mesh).tets == MeshAccess::data(by_program).tets);
+    CHECK(MeshAccess::data(mesh).points == MeshAccess::data(by_program).points);
+  }
+  Mesh in_a_region = cube();
+  CHECK(adapt(in_a_region, {.size = {"0.1", "label:2=" + slope}}).sizes_after->in_range > 0.8);
+
+  const auto message_of = [](const std::string& size) -> std::string {
+    Mesh mesh = cube();
+    try {
+      adapt(mesh, {.size = {size}});
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return {};
+  };
+  const std::string negative = file_of("negative.lua", "function size(x, y, z) return 0.5 - y end");
+  CHECK(message_of(negative).starts_with(negative + ": "));
+  CHECK(message_of(negative).ends_with("is no length"));
+  CHECK(message_of("label:2=" + negative).find("expected a number above 0") != std::string::npos);
+  const std::string wrong = file_of("wrong.lua", "\nfunction size(x, y, z) retrun 1 end");
+  CHECK(message_of(wrong).find("wrong.lua:2: ") != std::string::npos);
+  const std::string other = file_of("other.lua", "function length(x, y, z) return 1 end");
+  CHECK(message_of(other).find("the script has no function size") != std::string::npos);
+  CHECK(message_of((folder / "none.lua").string()).find("cannot read it") != std::string::npos);
 }
 
 TEST_CASE(

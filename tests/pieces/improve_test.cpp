@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <fstream>
 #include <iterator>
 #include <set>
@@ -140,6 +141,40 @@ TEST_CASE("later divisions try what lies near former borders, not all that may c
   }
   CHECK(items[0] > 500);
   CHECK(items[0] < 0.8 * static_cast<double>(items[1]));
+}
+
+TEST_CASE("a mesh in pieces is adapted to lengths, as far as one that is whole") {
+  MeshData data = lattice(8);
+  DataArray h{"h", 1, std::vector<double>()};
+  for (const Point& p : data.points) {
+    std::get<std::vector<double>>(h.values).push_back(p.x() < 3 ? 0.5 : 1.5);
+  }
+  data.point_data.push_back(h);
+  const std::vector<Options> all = {
+      {.schedule = "adapt", .size = {"0.6"}},
+      {.schedule = "adapt", .surface = "flat", .size = {"array:h"}},
+      {.schedule = "adapt", .surface = "flat", .size = {"2"}},
+      {.schedule = "adapt", .surface = "flat", .size_at = [](double x, double, double) {
+         return 0.5 + 0.1 * x;
+       }}};
+  for (Options options : all) {
+    Mesh whole = MeshAccess::make(data);
+    const Result as_one = improve(whole, options);
+    Result result;
+    const MeshData made = improved(data, options, 4, &result);
+    REQUIRE(result.sizes_before);
+    REQUIRE(result.sizes_after);
+    CHECK(result.sizes_before->in_range == as_one.sizes_before->in_range);
+    CHECK(result.sizes_after->in_range > as_one.sizes_after->in_range - 0.05);
+    CHECK(result.not_positive_after == 0);
+    CHECK(std::abs(result.volume_change()) < 1e-9);
+    const double ratio = static_cast<double>(made.tets.size()) / as_one.after.tets;
+    CHECK(std::abs(ratio - 1) < 0.15);
+    if (options.surface.empty())
+      CHECK(result.surface_fingerprint == result.surface_fingerprint_before);
+    options.threads = 2;
+    CHECK(equal(improved(data, options, 4), made));
+  }
 }
 
 TEST_CASE("threads, folders and files do not show in the result") {

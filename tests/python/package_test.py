@@ -496,6 +496,26 @@ def test_what_progress_raises_comes_out(materials):
         tetmend.improve(materials, script="log('x')", note=lambda text: 1 / 0)
 
 
+def test_lengths_may_be_a_function_of_the_place(materials, tmp_path):
+    script = tmp_path / "size.lua"
+    script.write_text("function size(x, y, z) return 0.1 + 0.2 * x * x end")
+    by_script = tetmend.adapt(materials, size=str(script), surface="flat")
+    for threads in (1, 2):
+        by_function = tetmend.adapt(materials, size=lambda x, y, z: np.float64(0.1 + 0.2 * x * x), surface="flat", threads=threads)
+        assert np.array_equal(by_function.points, by_script.points) and np.array_equal(by_function.tets, by_script.tets)
+    assert by_function.figures["sizes_after"] == by_script.figures["sizes_after"]
+
+
+@pytest.mark.parametrize(("given", "raised"), [
+    (lambda x, y, z: 1 / 0, ZeroDivisionError), (lambda x: x, TypeError), (lambda x, y, z: "long", TypeError),
+    (lambda x, y, z: -1, tetmend.Error)])
+def test_what_a_function_of_lengths_raises_comes_out_and_the_mesh_stays(materials, given, raised):
+    before = materials.points.copy()
+    with pytest.raises(raised):
+        tetmend.adapt(materials, size=given, threads=2)
+    assert np.array_equal(materials.points, before)
+
+
 def test_ctrl_c_stops_the_run_and_is_raised():
     mesh = tetmend.load(SOURCE / "assets/meshes/bracket.meshb")
     seen = []

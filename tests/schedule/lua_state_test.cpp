@@ -2,6 +2,7 @@
 // The box around the interpreter: what scripts cannot reach, and how they are stopped.
 #include "schedule/lua_state.h"
 
+#include <array>
 #include <new>
 #include <string>
 #include <vector>
@@ -199,4 +200,34 @@ TEST_CASE("what words hold outside of the interpreter has one budget") {
       "test.lua:2: arguments, notes, descriptions and records of passes take more than 1 MB",
       Error);
   CHECK_THROWS_AS(lua.run("for i = 1, 100 do keep() end", "test.lua"), Error);
+}
+
+TEST_CASE("a function of a script is called with numbers, for a number") {
+  std::size_t watches = 0;
+  LuaState lua({}, [&] {
+    if (++watches > 100) throw Error("too long");
+  });
+  lua.run(
+      "function f(x, y) return x - 2 * y end\n"
+      "function g(x) return {x} end\n"
+      "function h(x)\n return x.y\n end\n"
+      "function loop() while true do end end\n"
+      "word = 3",
+      "test.lua");
+  const auto message_of = [&](const std::string& function) -> std::string {
+    try {
+      lua.call(function, std::array{1.0});
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return {};
+  };
+  CHECK(lua.call("f", std::array{1.0, 0.25}) == 0.5);
+  CHECK(message_of("g") == "test.lua: g returns a table, but a number is wanted");
+  CHECK(message_of("h") == "test.lua:4: attempt to index a number value (local 'x')");
+  CHECK(message_of("none") == "test.lua: the script has no function none");
+  CHECK(message_of("word") == "test.lua: the script has no function word");
+  CHECK(message_of("log") == "test.lua: the script has no function log");
+  CHECK(message_of("loop") == "test.lua:6: too long");
+  CHECK(lua.call("f", std::array{3.0, 1.0}) == 1);  // none of that does harm
 }

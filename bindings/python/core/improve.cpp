@@ -48,8 +48,11 @@ struct Moment {
 /// run.
 class Callbacks {
  public:
-  Callbacks(py::object progress, py::object note, std::atomic<bool>& cancel)
-      : progress_(std::move(progress)), note_(std::move(note)), cancel_(cancel) {}
+  Callbacks(py::object progress, py::object note, py::object size_at, std::atomic<bool>& cancel)
+      : progress_(std::move(progress)),
+        note_(std::move(note)),
+        size_at_(std::move(size_at)),
+        cancel_(cancel) {}
 
   void add_to(Options& options) {
     if (!progress_.is_none()) {
@@ -60,6 +63,9 @@ class Callbacks {
         const py::gil_scoped_acquire interpreter;
         guarded([&] { note_(python::to_text(text)); });
       };
+    }
+    if (!size_at_.is_none()) {
+      options.size_at = [this](double x, double y, double z) { return ask_size(x, y, z); };
     }
   }
 
@@ -92,8 +98,22 @@ class Callbacks {
     return goes_on && !failure_;
   }
 
+  /// @throws Error where it failed: no other length would do
+  double ask_size(double x, double y, double z) {
+    const py::gil_scoped_acquire interpreter;
+    double length = 0;
+    guarded([&] {
+      const py::object answer = size_at_(x, y, z);
+      length = PyFloat_AsDouble(answer.ptr());
+      if (PyErr_Occurred() != nullptr) throw py::error_already_set();
+    });
+    if (failure_) throw Error("size: the function has failed");
+    return length;
+  }
+
   py::object progress_;
   py::object note_;
+  py::object size_at_;
   std::atomic<bool>& cancel_;
   std::optional<py::error_already_set> failure_;
 };
@@ -107,16 +127,22 @@ Options to_options(const Settings& settings) {
 /// Improves the mesh itself; nobody may have looked at its arrays.
 /// @returns (figures, vertex_map, tet_map)
 py::tuple improve_in_place(Mesh& mesh, const Settings& settings, bool rulers, bool maps,
-                           const py::object& progress, const py::object& note) {
+                           const py::object& progress, const py::object& note,
+                           const py::object& size_at) {
   std::atomic<bool> cancel = false;
   Options options = to_options(settings);
   options.rulers = rulers;
   options.maps = maps;
   options.cancel = &cancel;
-  Callbacks callbacks(progress, note, cancel);
+  Callbacks callbacks(progress, note, size_at, cancel);
   callbacks.add_to(options);
   Result result;
-  run_detached([&] { result = improve(mesh, options); }, cancel);
+  try {
+    run_detached([&] { result = improve(mesh, options); }, cancel);
+  } catch (const Error&) {
+    callbacks.raise_if_failed();  // which is why
+    throw;
+  }
   callbacks.raise_if_failed();
   const py::dict figures = to_dict(result);
   return py::make_tuple(figures, to_array(std::move(result.vertex_map)),
@@ -179,7 +205,7 @@ void add_progress(py::module_& module) {
 void add_improve(py::module_& module) {
   add_progress(module);
   module.def("improve_in_place", &improve_in_place, "mesh"_a, "settings"_a, "rulers"_a, "maps"_a,
-             "progress"_a, "note"_a);
+             "progress"_a, "note"_a, "size_at"_a);
   module.def(
       "check_options", [](const Settings& settings) { check(to_options(settings)); }, "settings"_a);
   module.def("option_forms", [] {

@@ -217,6 +217,7 @@ def improve(points: ArrayLike | Mesh | Result, tets: ArrayLike | str | None = No
              "cell_data": cell_data, "triangle_data": triangle_data, "edge_data": edge_data, "groups": groups}
     _check_function("progress", progress)
     _check_function("note", note)
+    size_at = options.pop("size") if callable(options.get("size")) else None
     settings = to_settings(options)
     if isinstance(points, Result):
         points = points.mesh
@@ -238,7 +239,7 @@ def improve(points: ArrayLike | Mesh | Result, tets: ArrayLike | str | None = No
         _core.check_options(settings)
         mesh = Mesh(points, tets, **{name: value for name, value in given.items() if value is not None})
         core = mesh._core
-    figures, vertex_map, tet_map = _core.improve_in_place(core, settings, rulers, maps, progress, note)
+    figures, vertex_map, tet_map = _core.improve_in_place(core, settings, rulers, maps, progress, note, size_at)
     figures["schedule"] = "script" if options.get("script") else str(options.get("schedule") or "shell")
     figures["settings"] = {str(name): value for name, value in dict(options.get("set") or {}).items()}
     figures["measure"] = options.get("measure") or "sine_and_length"
@@ -253,11 +254,13 @@ def improve(points: ArrayLike | Mesh | Result, tets: ArrayLike | str | None = No
 
 
 def adapt(points: ArrayLike | Mesh | Result, tets: ArrayLike | str | None = None, *,
-          size: float | str | Sequence[float | str], **options: Any) -> Result:
+          size: float | str | Sequence[float | str] | Callable[[float, float, float], float], **options: Any) -> Result:
     """Makes edges as long as wanted, and improves what came of it without undoing that. What goes in stays as it is.
 
     size  0.5, a length; "0.5x", half of what edges are there; "array:h", an array of point_data; "h.sol", a file of MEDIT;
-          "coarse.vtu:h", an array of another mesh; or one of these for a region, "label:3=0.2"; or several of them
+          "coarse.vtu:h", an array of another mesh; "h.lua", a function size(x, y, z) of a script; or one of these for a region,
+          "label:3=0.2"; or several of them; or a function of x, y and z, which any thread may call and gives the same
+          whenever it is asked
 
     All else is as for improve(), also gradation=1.3, smallest and largest, the bounds of wanted lengths. The surface stays, and so
     do its edges, unless the option surface lets it move. The figures of the input are no bounds.

@@ -7,7 +7,7 @@ import difflib
 import numbers
 import operator
 import os
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any, TypedDict, Union
 
 import numpy as np
@@ -38,7 +38,7 @@ class Options(TypedDict, total=False):
     surface: str
     feature_angle: float
     keep_size: bool
-    size: float | str | Sequence[float | str]
+    size: float | str | Sequence[float | str] | Callable[[float, float, float], float]
     gradation: float
     smallest: float
     largest: float
