@@ -15,8 +15,10 @@ void add_adapt(CLI::App& app, Invocation& invocation) {
   const auto options = std::make_shared<ImproveOptions>();
   CLI::App* command = app.add_subcommand("adapt", "Make edges as long as a field of sizes asks");
   add_adapt_options(*command, *options);
-  add_dry_run_option(*command, *options);
-  add_folder_option(*command);
+  if (invocation.ranks == nullptr) {
+    add_dry_run_option(*command, *options);
+    add_folder_option(*command);
+  }
   command->footer(fmt::format(
       R"(Splits edges that are longer than 1.41 of the wanted length, contracts those
 shorter than 0.71, and improves what came of it without undoing that. Prints

@@ -32,6 +32,7 @@
 #include "kernel/stopwatch.h"
 #include "pieces/bytes.h"
 #include "pieces/improve.h"
+#include "pieces/mesh_files.h"
 #include "pieces/out_of_core.h"
 #include "platform/platform.h"
 
@@ -78,6 +79,7 @@ void check_pieces(const ImproveOptions& options, const Invocation& invocation) {
   const std::size_t count = options.pieces.pieces;  // 0: nobody knows yet
   try {
     pieces::check_memory(options.pieces.memory);
+    if (is_by_files(options, invocation)) pieces::check_for_files(options.run);
   } catch (const OptionError& error) {
     throw UsageError("--" + message_of(error));
   }

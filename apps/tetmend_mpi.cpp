@@ -124,6 +124,7 @@ std::unique_ptr<CLI::App> make_parser(Invocation& invocation) {
   mpirun -n 8 tetmend-mpi improve part.meshb -o better.meshb
   mpirun -n 64 --map-by ppr:1:node:PE=16 tetmend-mpi improve part.meshb
       -o better.meshb --threads 16 --checkpoint saved
+  mpirun -n 8 tetmend-mpi adapt part.meshb --size h.lua -o finer.meshb
 
 The mesh is divided into a piece for each 4 million tets, or as --pieces or
 --memory ask; the number of processes does not show in the result. All see the
@@ -139,6 +140,7 @@ SIGUSR1 to mpirun stops the work: the mesh is written as improved so far.
 
 Exit status: that of tetmend improve)");
   add_improve(*app, invocation);
+  add_adapt(*app, invocation);
   add_convert_by_ranks(*app, invocation);
   return app;
 }

@@ -5,6 +5,7 @@ usage: mpi_test.py TETMEND TETMEND_MPI|none SOURCE_FOLDER
 """
 
 import json
+import math
 import os
 import re
 import shutil
@@ -89,6 +90,45 @@ def any_number_of_ranks(folder, expected):
     done = run(*mpi(2, MESH, "-o", whole, "-q"))
     run(PROGRAM, "improve", MESH, "-o", folder / "alone.meshb", "-q")
     check(whole.read_bytes() == (folder / "alone.meshb").read_bytes(), "one piece is not the run of improve")
+
+
+def adapts(folder):
+    """Lengths of places: the bytes and figures of a run that has the whole mesh, from checkpoints and any number of ranks."""
+    script = folder / "size.lua"
+    script.write_text("function size(x, y, z) return 2 + 0.05 * math.abs(x) end")
+    report = folder / "adapted.json"
+
+    def sizes():
+        found = json.loads(report.read_text())["sizes"]
+        report.unlink()
+        return found
+
+    def words(size, *more):
+        return [MESH, "--size", size, "-o", folder / "out.meshb", "--pieces", 4, "--set", "improve=false", "-q", "--report", report, *more]
+
+    done = run(PROGRAM, "adapt", *words(script))
+    expected, whole = taken(folder), sizes()
+    check(done.returncode == 0 and whole["after"]["in_range"] > 1.5 * whole["before"]["in_range"], "adapt in pieces", done.stderr, whole)
+    commands = [[PROGRAM, "adapt", *words(script, "--checkpoint", folder / "saved")]]
+    if MPI_PROGRAM != "none":
+        commands.append(["mpirun", "-n", "3", MPI_PROGRAM, "adapt", *words(script)])
+    for command in commands:
+        done = run(*command)
+        check(done.returncode == 0 and taken(folder) == expected, "another adapted mesh", command, done.stderr)
+        found = sizes()
+        for moment in ("before", "after"):
+            for name, value in whole[moment].items():
+                now = found[moment][name]
+                if name == "off_between_walls":  # between pieces nobody knows
+                    same = now <= value
+                elif isinstance(value, float):
+                    same = math.isclose(now, value, rel_tol=1e-9)
+                else:
+                    same = now == value
+                check(same, "other sizes", command, moment, name, now, value)
+    done = run(PROGRAM, "adapt", *words("0.5x", "--memory", "1G"))
+    check(done.returncode == 2 and "--size: '0.5x': needs the whole mesh in memory" in done.stderr and taken(folder) is None,
+          "a size that the whole mesh tells", done.returncode, done.stderr)
 
 
 def traces(folder):
@@ -405,6 +445,7 @@ def main() -> int:
         check(done.returncode == 0 and expected is not None, "improve", done.stderr)
         tasks(folder, expected)
         regions_and_arrays(folder)
+        adapts(folder)
         traces(folder)
         if has_mpi:
             any_number_of_ranks(folder, expected)
