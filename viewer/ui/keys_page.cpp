@@ -67,7 +67,14 @@ void KeysPage::draw(Session& session, float scale) {
   ImGui::Begin("Keys (F1 closes)", &session.document.show_keys,
                ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoCollapse);
   ImGui::SetNextItemWidth(-1);
+  if (ImGui::IsWindowAppearing()) {
+    typed_.clear();
+    ImGui::SetKeyboardFocusHere();
+  }
   ImGui::InputTextWithHint("##search", "search: a word or a key", &typed_);
+  if (ImGui::IsItemDeactivated() && ImGui::IsKeyPressed(ImGuiKey_Escape)) {
+    session.document.show_keys = false;
+  }
   const bool has_trace = session.document.debugger() != nullptr;
   if (ImGui::BeginChild("##groups")) {
     for (const char* title : {"Mouse", "File", "View", "Show", "Select", "Run", "Help"}) {
