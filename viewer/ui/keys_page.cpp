@@ -11,6 +11,8 @@
 #include <imgui.h>
 #include <imgui_stdlib.h>
 
+#include "viewer/ui/dialog_buttons.h"
+
 namespace tetmend::viewer::ui {
 
 namespace {
@@ -72,7 +74,7 @@ void KeysPage::draw(Session& session, float scale) {
     ImGui::SetKeyboardFocusHere();
   }
   ImGui::InputTextWithHint("##search", "search: a word or a key", &typed_);
-  if (ImGui::IsItemDeactivated() && ImGui::IsKeyPressed(ImGuiKey_Escape)) {
+  if (ImGui::IsItemDeactivated() && is_escape()) {
     session.document.show_keys = false;
   }
   const bool has_trace = session.document.debugger() != nullptr;

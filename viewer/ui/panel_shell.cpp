@@ -95,7 +95,7 @@ void explain_tables() {
 void show_tables(Document& document, const ShellPicture& shell) {
   if (shell.tables.size == 0) return;
   const bool is_open = ImGui::TreeNodeEx("##tables", ImGuiTreeNodeFlags_NoTreePushOnOpen);
-  ImGui::SameLine(0, 0);
+  ImGui::SameLine(ImGui::GetCursorStartPos().x + ImGui::GetTreeNodeToLabelSpacing());
   indexed_text("tables M_q and M_k (Algorithm 2)");
   if (!is_open) return;
   explain_tables();

@@ -94,6 +94,7 @@ TEST_CASE("the list of keys is searched by typing, and its keys close it") {
   wait_until_still();
   type("key F1 type bet");  // each of these letters is a key, too
   type("key F1");
+  wait_until_still();  // with the line that tells of the picture
   const Image after = take_picture(".");
   type("key F1 type bet");
   type("key Escape");
