@@ -143,6 +143,15 @@ void find_there(const SlotMesh& other, std::vector<BadTet>& bad) {
   }
 }
 
+/// @param first the mesh at the beginning
+std::vector<BadAtTime> bad_over_time(const TraceFile& file, const SlotMesh& first) {
+  std::vector<BadAtTime> over = {{0, bad_tets(first).size()}};
+  for (const TracedPass& pass : file.passes()) {
+    over.push_back({pass.events.end_seconds, pass.now.n_bad});
+  }
+  return over;
+}
+
 HistorySubject subject_of(const SlotMesh& mesh, TetHandle t) {
   HistorySubject subject(mesh.vertices(t).begin(), mesh.vertices(t).end());
   std::sort(subject.begin(), subject.end());
@@ -277,13 +286,25 @@ PairJson pairs_json(const std::vector<TetPair>& pairs) {
   return list;
 }
 
+PairJson over_time_json(const std::vector<BadAtTime>& over) {
+  PairJson list = PairJson::array();
+  for (const BadAtTime& each : over) {
+    list.push_back({{"seconds", each.seconds}, {"n_bad", each.n_bad}});
+  }
+  return list;
+}
+
 }  // namespace
 
 RunComparison compare_runs(const TraceFile& a, const TraceFile& b) {
-  RunComparison comparison{make_ledger(a), make_ledger(b), false, false, 0, 0, {}, {}};
+  RunComparison comparison;
+  comparison.a = make_ledger(a);
+  comparison.b = make_ledger(b);
   comparison.same_beginning = a.initial_mesh().fingerprint() == b.initial_mesh().fingerprint();
   Replay of_a(a, 0);
   Replay of_b(b, 0);
+  comparison.over_a = bad_over_time(a, of_a.mesh());
+  comparison.over_b = bad_over_time(b, of_b.mesh());
   const SlotMesh& mesh_a = of_a.mesh_at(a.event_count());
   const SlotMesh& mesh_b = of_b.mesh_at(b.event_count());
   const Standard& by_a = mesh_a.standard();
@@ -323,6 +344,8 @@ std::string comparison_json(const TraceFile& a, const TraceFile& b,
                          {"same_goal", comparison.same_goal},
                          {"bad_in_a", comparison.bad_in_a},
                          {"bad_in_b", comparison.bad_in_b},
+                         {"bad_over_time_a", over_time_json(comparison.over_a)},
+                         {"bad_over_time_b", over_time_json(comparison.over_b)},
                          {"bad_in_a_good_in_b", pairs_json(comparison.worse_in_a)},
                          {"bad_in_b_good_in_a", pairs_json(comparison.worse_in_b)}};
   return json.dump(2) + "\n";

@@ -19,8 +19,15 @@ struct TetPair {
   Quality bad_quality = 0, good_quality = 0;
 };
 
+/// From this moment of a run on, see EventRange::begin_seconds.
+struct BadAtTime {
+  double seconds = 0;
+  std::size_t n_bad = 0;
+};
+
 struct RunComparison {
-  Ledger a, b;
+  Ledger a, b;                             ///< with names that are those of the traces
+  std::vector<BadAtTime> over_a, over_b;   ///< at the beginning, and after each pass
   bool same_beginning = false;             ///< the mesh, with its numbers
   bool same_goal = false;                  ///< of the mesh at the end; qualities are by this
   std::size_t bad_in_a = 0, bad_in_b = 0;  ///< tets, at the end

@@ -36,10 +36,11 @@ Message message_of(const LiveProgress& run, const std::string& schedule) {
     case LiveState::paused: {
       const bool is_in_call = run.last && (run.last->is_inside || run.last->is_under_way);
       if (!is_in_call && run.attempts == 0) return {"paused before the first call", false};
-      return {fmt::format("{} in {} {} call {}{}", run.breakpoint.empty() ? "paused" : "breakpoint",
-                          run.phase, is_in_call ? "in" : "after",
-                          is_in_call ? run.last->number : run.attempts,
-                          run.breakpoint.empty() ? "" : ": " + run.breakpoint),
+      const std::string place =
+          is_in_call ? fmt::format("in call {}", run.last->number)
+                     : fmt::format("after {} call{}", run.attempts, run.attempts == 1 ? "" : "s");
+      return {fmt::format("{} in {}, {}{}", run.breakpoint.empty() ? "paused" : "breakpoint",
+                          run.phase, place, run.breakpoint.empty() ? "" : ": " + run.breakpoint),
               false};
     }
     default:

@@ -379,6 +379,23 @@ class Pages(unittest.TestCase):
         finally:
             window.close()
 
+    def test_what_scrolls_in_a_card_is_reached_by_keys(self) -> None:
+        window = browser.Browser(1920, 1080)
+        try:
+            window.command("Emulation.setDeviceMetricsOverride", width=1920, height=1080, deviceScaleFactor=1, mobile=False)
+            window.open((WORK / "lessons" / "4-tables.html").as_uri() + "#step=2")
+            scrolling = """const scrolling = [...document.querySelectorAll("main *")].filter((e) => e.getClientRects().length && e.scrollHeight > e.clientHeight + 1
+                && getComputedStyle(e).overflowY === "auto");"""
+            names, unreached = window.run(scrolling + """const isReached = (e) => e.tabIndex >= 0 || e.querySelector("a, button, [tabindex]");
+                return [scrolling.map((e) => e.className), scrolling.filter((e) => !isReached(e)).map((e) => e.className)]""")
+            self.assertIn("card tables", names)
+            self.assertEqual(unreached, [])
+            # There arrows are for what scrolls, not for the next step.
+            window.run("document.getElementById('tables-card').dispatchEvent(new KeyboardEvent('keydown', {key: 'ArrowDown', bubbles: true}))")
+            self.assertEqual(window.run("return location.hash"), "#step=2")
+        finally:
+            window.close()
+
     def test_keys_buttons_and_links_lead_where_the_debugger_leads(self) -> None:
         page = WORK / "lessons" / "2-two-shells.html"
         self.desk.open(page.as_uri() + "#step=4.2")

@@ -116,6 +116,13 @@ TEST_CASE("two runs side by side are told with differences, one axis of time and
   CHECK(text.find(as_question(found.worse_in_a[1].good)) != std::string::npos);
   CHECK(text.find("  b: Tet ") != std::string::npos);
   const auto json = nlohmann::json::parse(comparison_json(a, b, found));
+  REQUIRE(found.over_b.size() == b.passes().size() + 1);
+  CHECK(found.over_a.front().n_bad == found.over_b.front().n_bad);  // of one mesh
+  CHECK(found.over_b.front().n_bad > found.over_b.back().n_bad);
+  CHECK(found.over_b.back().n_bad == b.passes().back().now.n_bad);
+  CHECK(found.over_b.back().seconds == b.passes().back().events.end_seconds);
+  CHECK(json["bad_over_time_b"].size() == found.over_b.size());
+  CHECK(json["bad_over_time_b"].back()["n_bad"] == found.over_b.back().n_bad);
   CHECK(json["bad_in_a_good_in_b"].size() == found.worse_in_a.size());
   CHECK(json["a"]["all"]["calls"] == a.calls().size());
   CHECK(json["b"]["all"]["calls"] == b.calls().size());

@@ -98,6 +98,7 @@ json to_json(const TraceFile& file, const History& history) {
                  {"made", history.made},
                  {"moves", history.moves},
                  {"visits", history.visits.size()},
+                 {"visited", history.visits},
                  {"calls", calls},
                  {"trials", trials},
                  {"parts", parts}};

@@ -49,7 +49,7 @@ json against(Session& s, const json& a) {
     return nullptr;
   }
   debugger.compare_with(Arguments("against", a).text(0));
-  const RunComparison& made = debugger.other()->comparison;
+  const RunComparison& made = debugger.other()->comparison();
   s.document.message = {
       fmt::format("{} tets are bad here and good there, {} the other way round",
                   grouped(made.worse_in_a.size()), grouped(made.worse_in_b.size())),
@@ -58,6 +58,24 @@ json against(Session& s, const json& a) {
           {"bad_there", made.bad_in_b},
           {"bad_here_good_there", pairs_of_tets(made.worse_in_a)},
           {"bad_there_good_here", pairs_of_tets(made.worse_in_b)}};
+}
+
+json beside(Session& s, const json& a) {
+  Debugger& debugger = need_trace(s.document);
+  if (debugger.other() == nullptr) throw Error("beside: no other run is beside this one");
+  const std::size_t count = debugger.other()->comparison().worse_in_a.size();
+  debugger.look_at_pair(Arguments("beside", a).index(0, count));
+  const OtherRun& other = *debugger.other();
+  const TetPair& pair = *other.pair();
+  const Selection found = s.document.selection_of(pair.bad);
+  if (found != Selection()) s.document.fly_to(found);
+  s.document.message = {fmt::format("{} is in the panel In both runs", in_words(pair.bad)), false};
+  json result = pairs_of_tets({pair})[0];
+  result["here"] = history_paragraph(debugger.file(), *debugger.history());
+  result["there"] = other.place()->told;
+  result["tets_here"] = other.place()->here.size();
+  result["tets_there"] = other.place()->there.size();
+  return result;
 }
 
 constexpr std::array kLedgerCommands = {
@@ -70,6 +88,10 @@ constexpr std::array kLedgerCommands = {
     Command{"against", "Ctrl+B", "Trace", "against(\"FILE.trace\")",
             "Another run beside this one: differences of the ledgers, tets bad in one alone",
             &against},
+    Command{"beside", "", "", "beside(N)",
+            "Of the N-th tet that is bad here and good in the other run, counted from 0: its place "
+            "and its history in both; a table",
+            &beside},
 };
 
 }  // namespace

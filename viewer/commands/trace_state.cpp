@@ -124,8 +124,8 @@ json trace_state_of(Document& document) {
                        {"calls", debugger.found()->calls.size()}};
   }
   if (debugger.other()) {
-    const RunComparison& made = debugger.other()->comparison;
-    result["against"] = {{"file", debugger.other()->file.string()},
+    const RunComparison& made = debugger.other()->comparison();
+    result["against"] = {{"file", debugger.other()->name().string()},
                          {"bad_here", made.bad_in_a},
                          {"bad_there", made.bad_in_b},
                          {"bad_here_good_there", made.worse_in_a.size()}};

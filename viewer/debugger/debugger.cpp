@@ -120,16 +120,21 @@ HistorySubject Debugger::subject_of(std::string_view text) {
   }
 }
 
-void Debugger::ask_history(const HistorySubject& subject) {
+template <class Look>
+void Debugger::stay(const Look& look) {
   const std::uint64_t home = position();
   try {
-    history_ = history_of(file_, replay_, subject);
-    news = News::history;
+    look();
   } catch (const Error&) {
     replay_.seek(home);
     throw;
   }
   replay_.seek(home);
+}
+
+void Debugger::ask_history(const HistorySubject& subject) {
+  stay([&] { history_ = history_of(file_, replay_, subject); });
+  news = News::history;
 }
 
 const Ledger& Debugger::ledger() {
@@ -146,7 +151,16 @@ void Debugger::list_calls(const Condition& condition) {
 }
 
 void Debugger::compare_with(const std::filesystem::path& file) {
-  other_ = {file, compare_runs(file_, TraceFile(file))};
+  other_ = std::make_unique<OtherRun>(file_, file);
+}
+
+void Debugger::look_at_pair(std::size_t number) {
+  if (other_ == nullptr) throw Error("no other run is beside this one");
+  stay([&] { other_->look_at(number, replay_.mesh_at(end())); });
+  const HistorySubject bad = other_->pair()->bad;
+  ask_history(bad);
+  asked = as_question(bad);
+  news = News::pair;
 }
 
 }  // namespace tetmend::viewer

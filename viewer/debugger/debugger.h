@@ -18,10 +18,10 @@
 #include "kernel/tet_mesh.h"
 #include "trace/history.h"
 #include "trace/replay.h"
-#include "trace/run_comparison.h"
 #include "viewer/debugger/call_list.h"
 #include "viewer/debugger/condition.h"
 #include "viewer/debugger/explained.h"
+#include "viewer/debugger/other_run.h"
 #include "viewer/debugger/trace_mesh.h"
 
 namespace tetmend::viewer {
@@ -30,12 +30,6 @@ namespace tetmend::viewer {
 struct FoundCalls {
   Condition condition;
   std::vector<std::uint32_t> calls;  ///< see find_all()
-};
-
-/// Another recorded run beside the one that is looked at.
-struct OtherRun {
-  std::filesystem::path file;
-  RunComparison comparison;  ///< `a` is the run that is looked at
 };
 
 /// Moves that lead nowhere leave the position as it is.
@@ -121,11 +115,15 @@ class Debugger {
   const std::optional<FoundCalls>& found() const { return found_; }
   void forget_found() { found_.reset(); }
   /// What was asked for last, until a window has shown it.
-  enum class News { none, history, found };
+  enum class News { none, history, found, pair };
   News news = News::none;
   /// @throws Error as TraceFile does. Cost: see compare_runs().
   void compare_with(const std::filesystem::path& file);
-  const std::optional<OtherRun>& other() const { return other_; }
+  /// Null without one.
+  const OtherRun* other() const { return other_.get(); }
+  /// Looks at the place of one of the tets that are bad here and good there; asks about the tet.
+  /// @throws Error if there is no such number. Cost: a history in each run
+  void look_at_pair(std::size_t number);
   const std::optional<Lesson>& lesson() const { return lesson_; }
   /// The tree of the calls of the pass at hand, as far as it is unfolded. Valid until the next
   /// call.
@@ -136,6 +134,9 @@ class Debugger {
 
  private:
   explicit Debugger(TraceFile file, const TetMesh* start = nullptr);
+  /// What looks at other places of the trace, and comes back.
+  template <class Look>
+  void stay(const Look& look);
   std::optional<std::uint64_t> nearest_breakpoint(Direction direction, Condition* which);
   ConditionSource source() { return {file_, replay_}; }
 
@@ -150,7 +151,7 @@ class Debugger {
   std::optional<History> history_;
   std::optional<Ledger> ledger_;
   std::optional<FoundCalls> found_;
-  std::optional<OtherRun> other_;
+  std::unique_ptr<OtherRun> other_;
   std::optional<Lesson> lesson_;
   double unplayed_ = 0;  // share of an event
 };

@@ -58,19 +58,23 @@ LinkedDrawing draw_tets(std::span<const LocalTet> tets, const Camera& camera, co
   return drawing;
 }
 
-std::optional<Ball> ball_around(const CallStudy& study) {
+std::optional<Ball> ball_around(std::span<const LocalTet> tets) {
   glm::dvec3 low(std::numeric_limits<double>::max());
   glm::dvec3 high = -low;
-  for (const auto* tets : {&study.before, &study.after}) {
-    for (const LocalTet& tet : *tets) {
-      for (const Point& corner : tet.corners) {
-        low = glm::min(low, to_glm(corner));
-        high = glm::max(high, to_glm(corner));
-      }
+  for (const LocalTet& tet : tets) {
+    for (const Point& corner : tet.corners) {
+      low = glm::min(low, to_glm(corner));
+      high = glm::max(high, to_glm(corner));
     }
   }
-  if (study.before.empty() && study.after.empty()) return std::nullopt;
+  if (tets.empty()) return std::nullopt;
   return Ball{(low + high) / 2.0, std::max(glm::distance(low, high) / 2, 1e-12)};
+}
+
+std::optional<Ball> ball_around(const CallStudy& study) {
+  std::vector<LocalTet> both = study.before;
+  both.insert(both.end(), study.after.begin(), study.after.end());
+  return ball_around(both);
 }
 
 }  // namespace tetmend::viewer

@@ -25,6 +25,8 @@ LinkedDrawing draw_tets(std::span<const LocalTet> tets, const Camera& camera, co
                         const Square& square, const ColourMap& map, double opacity);
 
 /// Ball around the corners of the tets; nothing without tets.
+std::optional<Ball> ball_around(std::span<const LocalTet> tets);
+/// Of a call, before and after.
 std::optional<Ball> ball_around(const CallStudy& study);
 
 }  // namespace tetmend::viewer

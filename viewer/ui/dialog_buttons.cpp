@@ -5,13 +5,9 @@
 
 namespace tetmend::viewer::ui {
 
-namespace {
-
 bool is_escape() {
   return ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape));
 }
-
-}  // namespace
 
 void close_by_escape() {
   if (is_escape()) ImGui::CloseCurrentPopup();

@@ -9,6 +9,8 @@ namespace tetmend::viewer::ui {
 
 /// Inside a popup or a menu: Escape closes it.
 void close_by_escape();
+/// The key has just been pressed.
+bool is_escape();
 
 enum class Answer : std::uint8_t { none, accepted, cancelled };
 

@@ -79,7 +79,7 @@ Colour light(std::uint8_t alpha) {
   return colour;
 }
 
-/// A shape that is pointed at: light behind words and lines, and over areas.
+/// What is pointed at: light behind words and lines, and over areas.
 class Light {
  public:
   explicit Light(const Painter& painter) : painter_(painter) {}
@@ -89,7 +89,16 @@ class Light {
       figure::Stroke wide = *stroke;
       wide.pen = {light(255), 2 * stroke->pen.width + 4, false};
       painter_(wide);
-    } else if (const auto* text = std::get_if<figure::Text>(&shape)) {
+    }
+  }
+
+  /// Words of one name lie close together: the light of all of them comes before the first.
+  void behind_words(const LinkedDrawing& drawing, std::size_t first, const Pointed& pointed) const {
+    const auto& shapes = drawing.drawing.shapes;
+    for (std::size_t i = first; i < shapes.size(); ++i) {
+      const auto* text = std::get_if<figure::Text>(&shapes[i]);
+      if (text == nullptr) return;
+      if (!pointed.contains(drawing.meanings[i].vertices)) continue;
       const figure::Box box = figure::box_of(*text);
       painter_(figure::Dot{
           {(box.left + box.right) / 2, (box.top + box.bottom) / 2}, 0.8 * text->size, light(255)});
@@ -146,6 +155,10 @@ void show_linked(const char* id, std::span<const LinkedDrawing> drawings, float 
     for (std::size_t i = 0; i < drawing.meanings.size(); ++i) {
       const figure::Shape& shape = drawing.drawing.shapes[i];
       const bool is_lit = pointed.contains(drawing.meanings[i].vertices);
+      const auto is_word = [&](std::size_t k) {
+        return std::holds_alternative<figure::Text>(drawing.drawing.shapes[k]);
+      };
+      if (is_word(i) && (i == 0 || !is_word(i - 1))) light.behind_words(drawing, i, pointed);
       if (is_lit) light.behind(shape);
       std::visit(painter, shape);
       if (is_lit) light.over(shape);

@@ -140,7 +140,8 @@ bool is_news(const Panel& panel, const Debugger* debugger) {
   if (debugger == nullptr) return false;
   using News = Debugger::News;
   return (debugger->news == News::history && panel.draw == &draw_history_panel) ||
-         (debugger->news == News::found && panel.draw == &draw_found_panel);
+         (debugger->news == News::found && panel.draw == &draw_found_panel) ||
+         (debugger->news == News::pair && panel.draw == &draw_both_panel);
 }
 
 /// `is_event_elsewhere`: where the trace is stands below all panels.
@@ -182,7 +183,8 @@ void list_side(Session& session, Side side) {
 void list_in_tabs(Session& session, bool enters, bool leaves, bool is_in_call) {
   if (!ImGui::BeginTabBar("##tabs")) return;
   const Debugger::News news = session.document.debugger()->news;
-  enters = news == Debugger::News::history || (enters && news == Debugger::News::none);
+  const bool is_told = news == Debugger::News::history || news == Debugger::News::pair;
+  enters = is_told || (enters && news == Debugger::News::none);
   leaves = news == Debugger::News::found || (leaves && news == Debugger::News::none);
   const auto tab = [&](const char* title, bool comes, auto... is_wanted) {
     const ImGuiTabItemFlags flags = comes ? ImGuiTabItemFlags_SetSelected : 0;
@@ -239,11 +241,14 @@ void teach(Session& session, const Layout& layout) {
     column.y += height;
   };
   show(Focus::tree, "##tree", &draw_tree);
-  show(Focus::ring, "##teaching", [](Session& s) {
+  // Beside others the ring has the room that words would take.
+  const auto ring = [](Session& s) { draw_ring(s, false); };
+  const auto ring_alone = [](Session& s) {
     constexpr std::size_t kMostCalls = 2;
     draw_stack(s, kMostCalls);
     draw_ring(s);
-  });
+  };
+  show(Focus::ring, "##teaching", others == 1 ? +ring_alone : +ring);
   show(Focus::tables, "##tables", &draw_tables);
   if (begin("##code", code)) {
     constexpr bool kWhole = true;

@@ -11,6 +11,8 @@
 #include <imgui.h>
 #include <imgui_stdlib.h>
 
+#include "viewer/ui/dialog_buttons.h"
+
 namespace tetmend::viewer::ui {
 
 namespace {
@@ -67,7 +69,14 @@ void KeysPage::draw(Session& session, float scale) {
   ImGui::Begin("Keys (F1 closes)", &session.document.show_keys,
                ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoCollapse);
   ImGui::SetNextItemWidth(-1);
+  if (ImGui::IsWindowAppearing()) {
+    typed_.clear();
+    ImGui::SetKeyboardFocusHere();
+  }
   ImGui::InputTextWithHint("##search", "search: a word or a key", &typed_);
+  if (ImGui::IsItemDeactivated() && is_escape()) {
+    session.document.show_keys = false;
+  }
   const bool has_trace = session.document.debugger() != nullptr;
   if (ImGui::BeginChild("##groups")) {
     for (const char* title : {"Mouse", "File", "View", "Show", "Select", "Run", "Help"}) {

@@ -10,6 +10,7 @@
 #include "kernel/error.h"
 #include "viewer/mesh/tet_values.h"
 #include "viewer/overlay.h"
+#include "viewer/ui/call_row.h"
 #include "viewer/ui/panels.h"
 
 namespace tetmend::viewer::ui {
@@ -27,13 +28,13 @@ void name(const char* text) {
 
 void choose_colour(SceneSettings& scene, bool has_reference) {
   name("colour");
-  if (ImGui::BeginCombo("##colour", scene.colour.c_str())) {
+  if (ImGui::BeginCombo("##colour", spaced(scene.colour).c_str())) {
     if (ImGui::Selectable("region", scene.colour == "region")) scene.colour = "region";
     if (has_reference && ImGui::Selectable(kDistance, scene.colour == kDistance)) {
       scene.colour = kDistance;
     }
     for (const TetValue& value : tet_values()) {
-      if (ImGui::Selectable(value.name.data(), scene.colour == value.name)) {
+      if (ImGui::Selectable(spaced(value.name).c_str(), scene.colour == value.name)) {
         scene.colour = value.name;
         if (scene.measure != value.name) scene.filtered = false;
         scene.measure = value.name;

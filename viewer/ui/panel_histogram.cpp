@@ -8,6 +8,7 @@
 #include "figure/drawing.h"
 #include "kernel/grouped.h"
 #include "viewer/mesh/tet_values.h"
+#include "viewer/ui/call_row.h"
 #include "viewer/ui/drawing_canvas.h"
 #include "viewer/ui/panels.h"
 
@@ -17,9 +18,9 @@ namespace {
 
 void choose_measure(SceneSettings& scene) {
   ImGui::SetNextItemWidth(-1);
-  if (!ImGui::BeginCombo("##measure", scene.measure.c_str())) return;
+  if (!ImGui::BeginCombo("##measure", spaced(scene.measure).c_str())) return;
   for (const TetValue& value : tet_values()) {
-    if (ImGui::Selectable(value.name.data(), scene.measure == value.name)) {
+    if (ImGui::Selectable(spaced(value.name).c_str(), scene.measure == value.name)) {
       const bool follow = scene.colour == scene.measure;
       scene.measure = value.name;
       scene.filtered = false;

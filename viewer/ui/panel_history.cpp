@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: MIT
 // What a trace knows of one tet, face, edge or vertex.
+#include <algorithm>
+#include <optional>
+
 #include <fmt/format.h>
 #include <imgui.h>
 #include <imgui_stdlib.h>
@@ -96,7 +99,33 @@ void show_subject(Session& session, const History& history) {
   });
 }
 
+/// A click goes to where a pass turned to the tet.
+void list_visits(Session& session, const History& history) {
+  const TraceFile& file = session.document.debugger()->file();
+  std::optional<std::uint64_t> chosen;
+  for (const std::uint32_t number : history.visits) {
+    const Visit& visit = file.visits()[number];
+    const auto around =
+        std::find_if(file.passes().begin(), file.passes().end(),
+                     [&](const TracedPass& pass) { return visit.events.begin < pass.events.end; });
+    std::string text =
+        fmt::format("visit {}: {} calls", number, visit.last_call - visit.first_call);
+    if (around != file.passes().end()) {
+      text += fmt::format(", {} {}", spaced(file.name(around->name)), around->round);
+    }
+    if (fitted_row(text, session.document.debugger()->visit() == number)) {
+      chosen = visit.events.begin + 1;
+    }
+    if (ImGui::IsItemHovered()) session.document.hovering = {history.subject};
+  }
+  if (chosen) run_from_window(find_command("seek"), session, {*chosen});
+}
+
 void list_what_there_was(Session& session, const History& history) {
+  if (!history.visits.empty() && ImGui::TreeNode("visits by passes")) {
+    list_visits(session, history);
+    ImGui::TreePop();
+  }
   if (history.calls.empty()) return;
   if (ImGui::TreeNodeEx("calls", ImGuiTreeNodeFlags_DefaultOpen)) {
     list_calls(session, history, false);

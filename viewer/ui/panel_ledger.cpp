@@ -38,8 +38,8 @@ void number_cell(const std::string& text) {
 /// The same row of the other run.
 const LedgerRow* row_there(const Debugger& debugger, std::string_view name,
                            std::vector<LedgerRow>& rows) {
-  if (!debugger.other()) return nullptr;
-  if (rows.empty()) rows = debugger.other()->comparison.b.by_operator();
+  if (debugger.other() == nullptr) return nullptr;
+  if (rows.empty()) rows = debugger.other()->comparison().b.by_operator();
   const auto found = std::find_if(rows.begin(), rows.end(),
                                   [&](const LedgerRow& row) { return row.operator_name == name; });
   return found == rows.end() ? nullptr : &*found;
@@ -138,35 +138,6 @@ void show_nearness(const LedgerRow& all) {
                            grouped(near), kNearness[1]));
 }
 
-/// A click asks for the history of the bad tet.
-void show_pairs(Session& session, const OtherRun& other) {
-  const auto& pairs = other.comparison.worse_in_a;
-  wrapped_text(
-      fmt::format("Beside {}: {} tets are bad here, {} there. {} are bad here and good "
-                  "there, {} the other way round.",
-                  other.file.filename().string(), grouped(other.comparison.bad_in_a),
-                  grouped(other.comparison.bad_in_b), grouped(pairs.size()),
-                  grouped(other.comparison.worse_in_b.size())));
-  if (pairs.empty() || !ImGui::TreeNode("bad here and good there")) return;
-  std::string asked;
-  constexpr float kRows = 8;
-  if (ImGui::BeginChild("##pairs", {0, kRows * ImGui::GetTextLineHeightWithSpacing()})) {
-    ImGuiListClipper clipper;
-    clipper.Begin(static_cast<int>(pairs.size()));
-    while (clipper.Step()) {
-      for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i) {
-        const TetPair& pair = pairs[static_cast<std::size_t>(i)];
-        const std::string text = fmt::format("{}: {:.4f} here, {:.4f} there", in_words(pair.bad),
-                                             pair.bad_quality, pair.good_quality);
-        if (ImGui::Selectable(text.c_str())) asked = as_question(pair.bad);
-      }
-    }
-  }
-  ImGui::EndChild();
-  ImGui::TreePop();
-  if (!asked.empty()) run_from_window(find_command("history"), session, {asked});
-}
-
 std::string missing_text(const Call& call) {
   if (call.accepted()) return {};
   if (!call.has_qualities()) return "-";
@@ -207,11 +178,12 @@ void draw_ledger_panel(Session& session) {
                   grouped(all.total().calls), grouped(all.cell(CallEnding::for_good).calls),
                   grouped(all.cell(CallEnding::undone).calls), grouped(all.refused().calls),
                   grouped(debugger.ledger().lasting), grouped(debugger.ledger().edits)));
+  if (debugger.other() != nullptr) draw_other_run(session);
   std::string chosen;
   show_rows(debugger, chosen);
   show_nearness(all);
-  if (debugger.other()) show_pairs(session, *debugger.other());
-  if (ImGui::SmallButton(debugger.other() ? "another run ..." : "beside another run ...")) {
+  if (ImGui::SmallButton(debugger.other() != nullptr ? "another run ..."
+                                                     : "beside another run ...")) {
     run_from_window(find_command("against"), session);
   }
   if (chosen.empty()) return;

@@ -10,7 +10,9 @@
 #include "kernel/error.h"
 #include "kernel/grouped.h"
 #include "viewer/live/operator_schedule.h"
+#include "viewer/ui/call_row.h"
 #include "viewer/ui/panels.h"
+#include "viewer/ui/parameter_field.h"
 #include "viewer/ui/wrapped_text.h"
 
 namespace tetmend::viewer::ui {
@@ -51,7 +53,8 @@ void choose_schedule(Document& document) {
 /// The new value, or nothing.
 std::string edit_number(const ScheduleParameter& parameter, const std::string& text) {
   constexpr double kWide = 100;  // no slider for ranges beyond that
-  const char* name = parameter.name.c_str();
+  const std::string field = name_field(parameter.name);
+  const char* name = field.c_str();
   double value = std::stod(text);
   bool changed = false;
   if (parameter.kind == ScheduleParameter::Kind::integer) {
@@ -76,13 +79,13 @@ std::string edit_number(const ScheduleParameter& parameter, const std::string& t
 
 std::string edit_flag(const ScheduleParameter& parameter, const std::string& text) {
   bool on = text == "true";
-  if (!ImGui::Checkbox(parameter.name.c_str(), &on)) return {};
+  if (!ImGui::Checkbox(name_field(parameter.name).c_str(), &on)) return {};
   return on ? "true" : "false";
 }
 
 std::string edit_choice(const ScheduleParameter& parameter, const std::string& text) {
   std::string chosen;
-  if (!ImGui::BeginCombo(parameter.name.c_str(), text.c_str())) return chosen;
+  if (!ImGui::BeginCombo(name_field(parameter.name).c_str(), text.c_str())) return chosen;
   for (const std::string& choice : parameter.choices) {
     if (ImGui::Selectable(choice.c_str(), choice == text)) chosen = choice;
   }
@@ -97,18 +100,16 @@ void edit_parameter(Document& document, const ScheduleParameter& parameter) {
                             : parameter.kind == Kind::choice ? edit_choice(parameter, text)
                                                              : edit_number(parameter, text);
   if (ImGui::IsItemHovered()) {
-    ImGui::SetTooltip("%s\n%s; default %s", parameter.help.c_str(), parameter.range().c_str(),
-                      parameter.initial_text().c_str());
+    ImGui::SetTooltip("%s: %s\n%s; default %s", parameter.name.c_str(), parameter.help.c_str(),
+                      parameter.range().c_str(), parameter.initial_text().c_str());
   }
   if (!value.empty()) carefully(document, [&] { document.live.set(parameter.name, value); });
 }
 
 void edit_parameters(Document& document) {
-  ImGui::PushItemWidth(0.5F * ImGui::GetContentRegionAvail().x);
   for (const ScheduleParameter& parameter : document.live.info().parameters) {
     edit_parameter(document, parameter);
   }
-  ImGui::PopItemWidth();
   bool record = !document.live.trace.empty();
   if (ImGui::Checkbox("record", &record)) document.live.trace = record ? kTrace : "";
   if (ImGui::IsItemHovered()) ImGui::SetTooltip("the next run, into the file %s", kTrace);
@@ -211,21 +212,21 @@ void list_passes(const LiveProgress& run) {
   ImGui::TableSetupColumn("bad", ImGuiTableColumnFlags_WidthFixed);
   ImGui::TableSetupColumn("worst", ImGuiTableColumnFlags_WidthFixed);
   ImGui::TableSetupColumn("s", ImGuiTableColumnFlags_WidthFixed);
-  ImGui::TableHeadersRow();
+  headers_row(1);
   for (auto pass = run.passes.rbegin(); pass != run.passes.rend(); ++pass) {
     ImGui::TableNextRow();
     ImGui::TableNextColumn();
-    ImGui::Text("%u %s", pass->round, pass->name.c_str());
+    ImGui::Text("%u %s", pass->round, spaced(pass->name).c_str());
     if (ImGui::IsItemHovered()) {
       ImGui::SetTooltip("round %u, %s\n%zu of %zu calls accepted", pass->round, pass->name.c_str(),
                         pass->accepted, pass->attempts);
     }
     ImGui::TableNextColumn();
-    ImGui::Text("%zu", pass->after.n_bad);
+    right_aligned(grouped(pass->after.n_bad));
     ImGui::TableNextColumn();
-    ImGui::Text("%.4f", pass->after.q_worst);
+    right_aligned(fmt::format("{:.4f}", pass->after.q_worst));
     ImGui::TableNextColumn();
-    ImGui::Text("%.2f", pass->seconds);
+    right_aligned(fmt::format("{:.2f}", pass->seconds));
   }
   ImGui::EndTable();
 }
@@ -235,17 +236,19 @@ void watch(Session& session) {
   LiveRun& live = session.document.live;
   constexpr float kMost = 100;
   auto speed = static_cast<float>(live.speed());
-  ImGui::SetNextItemWidth(0.5F * ImGui::GetContentRegionAvail().x);
   const char* format = speed > 0 ? "%.1f a second" : "as fast as it can";
-  if (ImGui::SliderFloat("changes", &speed, 0, kMost, format, ImGuiSliderFlags_Logarithmic)) {
+  if (ImGui::SliderFloat(name_field("changes").c_str(), &speed, 0, kMost, format,
+                         ImGuiSliderFlags_Logarithmic)) {
     carefully(session.document, [&] { live.set_speed(speed < 0.1F ? 0 : speed); });
   }
   ImGui::Checkbox("the camera goes to each change", &session.document.follow_changes_live);
   static std::string typed;
   ImGui::SetNextItemWidth(-6 * ImGui::GetFontSize());
-  ImGui::InputTextWithHint("##breakpoint", "edge 3 17 and refused", &typed);
+  const bool is_entered = ImGui::InputTextWithHint("##breakpoint", "edge 3 17 and refused", &typed,
+                                                   ImGuiInputTextFlags_EnterReturnsTrue);
   ImGui::SameLine();
-  if (ImGui::Button("breakpoint")) run_from_window(find_command("breakpoint"), session, {typed});
+  if (ImGui::Button("breakpoint") || is_entered)
+    run_from_window(find_command("breakpoint"), session, {typed});
   std::size_t gone = live.breakpoints.size();
   for (std::size_t i = 0; i < live.breakpoints.size(); ++i) {
     ImGui::PushID(static_cast<int>(i));

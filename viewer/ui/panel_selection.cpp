@@ -7,6 +7,7 @@
 
 #include <imgui.h>
 
+#include "viewer/ui/call_row.h"
 #include "viewer/ui/panels.h"
 
 namespace tetmend::viewer::ui {
@@ -63,7 +64,7 @@ std::optional<Selection> show_rows(Document& document, const std::vector<Row>& r
   for (const Row& row : rows) {
     ImGui::TableNextRow();
     ImGui::TableNextColumn();
-    ImGui::TextDisabled("%s", row.name.c_str());
+    ImGui::TextDisabled("%s", spaced(row.name).c_str());
     ImGui::TableNextColumn();
     ImGui::PushID(row.name.c_str());
     if (const auto link = show_value(document, row)) clicked = link;

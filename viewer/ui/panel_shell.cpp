@@ -27,8 +27,8 @@ void show_polygon(Document& document, const PolygonView& polygon, float side) {
   look.middle = square.middle;
   look.half = square.half;
   // Of a small polygon, small ones: they must not cover it.
-  look.name_size = std::min(font, 0.13 * double{side});
-  look.number_size = std::min(0.85 * font, 0.1 * double{side});
+  look.name_size = std::min(font, 0.085 * double{side});
+  look.number_size = std::min(0.85 * font, 0.065 * double{side});
   look.line = font / 16;
   look.ink = colour_of(ImGuiCol_Text);
   look.patch = colour_of(ImGuiCol_WindowBg);
@@ -95,7 +95,7 @@ void explain_tables() {
 void show_tables(Document& document, const ShellPicture& shell) {
   if (shell.tables.size == 0) return;
   const bool is_open = ImGui::TreeNodeEx("##tables", ImGuiTreeNodeFlags_NoTreePushOnOpen);
-  ImGui::SameLine(0, 0);
+  ImGui::SameLine(ImGui::GetCursorStartPos().x + ImGui::GetTreeNodeToLabelSpacing());
   indexed_text("tables M_q and M_k (Algorithm 2)");
   if (!is_open) return;
   explain_tables();
@@ -223,7 +223,7 @@ void draw_tables(Session& session) {
   ImGui::EndTable();
 }
 
-void draw_ring(Session& session) {
+void draw_ring(Session& session, bool is_told) {
   Document& document = session.document;
   const CallStudy* study = document.debugger()->study();
   if (study == nullptr) return;
@@ -231,7 +231,7 @@ void draw_ring(Session& session) {
     return show_tets(document, *study, 0.45F * ImGui::GetContentRegionAvail().y);
   }
   const PolygonView polygon = document.debugger()->polygon();
-  wrapped_text(polygon.caption);
+  if (is_told) wrapped_text(polygon.caption);
   const ImVec2 room = ImGui::GetContentRegionAvail();
   const float side = std::max(std::min(room.x, room.y), 6 * ImGui::GetFontSize());
   ImGui::SetCursorPosX(ImGui::GetCursorPosX() + (room.x - side) / 2);

@@ -26,7 +26,8 @@ void draw_worst_panel(Session& session) {
       std::max(ImGui::CalcTextSize(longest.c_str()).x, ImGui::CalcTextSize("tet").x);
   ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthFixed, rank);
   ImGui::TableSetupColumn("tet", ImGuiTableColumnFlags_WidthFixed, number);
-  ImGui::TableSetupColumn(document.view.scene.measure.c_str(), ImGuiTableColumnFlags_WidthStretch);
+  ImGui::TableSetupColumn(spaced(document.view.scene.measure).c_str(),
+                          ImGuiTableColumnFlags_WidthStretch);
   headers_row(1);
   const auto place = document.place_among_worst();
   const auto values = document.values();

@@ -27,7 +27,10 @@ std::span<const Panel> panels() {
   constexpr auto kIsPause = [](const Document& d) {
     return d.debugs_live() && d.live.state() == LiveState::paused;
   };
-  static constexpr std::array<Panel, 20> kPanels = {
+  constexpr auto kHasPair = [](const Document& d) {
+    return d.debugger()->other() != nullptr && d.debugger()->other()->pair() != nullptr;
+  };
+  static constexpr std::array<Panel, 21> kPanels = {
       {{"Ledger", left, trace, &draw_ledger_panel, nullptr, kIsOutside},
        {"Calls found", left, trace, &draw_found_panel, nullptr, kHasFoundOutside},
        {"Calls", left, trace, &draw_calls_panel},
@@ -44,6 +47,7 @@ std::span<const Panel> panels() {
        {"Parameters, from the next pass on", right, trace, &draw_parameters_panel, nullptr,
         kIsPause},
        {"Step", right, trace, &draw_step_panel},
+       {"In both runs", right, trace, &draw_both_panel, nullptr, kHasPair},
        {"History", right, trace, &draw_history_panel,
         [](const Document& d) { return d.debugger()->history().has_value(); }},
        {"Statistics", right, mesh, &draw_statistics_panel},

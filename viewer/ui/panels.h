@@ -55,6 +55,10 @@ void draw_shell_panel(Session& session);
 void draw_lesson_panel(Session& session);
 void draw_history_panel(Session& session);
 void draw_ledger_panel(Session& session);
+/// Another run beside this one: bad tets of both over time, tets that are bad in one alone.
+void draw_other_run(Session& session);
+/// Of such a tet, its place and its history in both.
+void draw_both_panel(Session& session);
 /// The calls of a condition.
 void draw_found_panel(Session& session);
 
@@ -67,8 +71,8 @@ inline constexpr float kChordRows = 5.2F;  // with the head; more can be scrolle
 void draw_stack(Session& session, std::size_t most = 1000);
 /// What happened last, the verdict and its reason.
 void draw_last_event(Session& session);
-/// The polygon of the shell alone, as large as the window allows.
-void draw_ring(Session& session);
+/// The polygon of the shell alone, as large as the window allows. `is_told`: with what it shows.
+void draw_ring(Session& session, bool is_told = true);
 /// The tables of Algorithm 2 alone; their text is as small as they need to be seen whole.
 void draw_tables(Session& session);
 /// The tree of calls alone, as high as the window.

@@ -13,14 +13,8 @@ namespace tetmend::viewer::ui {
 
 namespace {
 
-/// The name stands left of the field, with spaces; scripts and schedules have low lines.
 std::optional<double> edit(const ParameterSpec& spec, double value) {
-  constexpr float kNames = 0.5F;  // of the width
-  ImGui::AlignTextToFramePadding();
-  ImGui::TextUnformatted(spaced(spec.name).c_str());
-  ImGui::SameLine(kNames * ImGui::GetContentRegionMax().x);
-  ImGui::SetNextItemWidth(-1);
-  const std::string name = "##" + std::string(spec.name);
+  const std::string name = name_field(spec.name);
   if (spec.kind == ParameterSpec::Kind::flag) {
     bool on = value != 0;
     if (!ImGui::Checkbox(name.c_str(), &on)) return std::nullopt;
@@ -42,6 +36,15 @@ std::optional<double> edit(const ParameterSpec& spec, double value) {
 }
 
 }  // namespace
+
+std::string name_field(std::string_view name) {
+  constexpr float kNames = 0.5F;  // of the width
+  ImGui::AlignTextToFramePadding();
+  ImGui::TextUnformatted(spaced(name).c_str());
+  ImGui::SameLine(kNames * ImGui::GetContentRegionMax().x);
+  ImGui::SetNextItemWidth(-1);
+  return "##" + std::string(name);
+}
 
 std::optional<double> edit_value(const ParameterSpec& spec, double value) {
   const auto chosen = edit(spec, value);

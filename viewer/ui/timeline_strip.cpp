@@ -276,8 +276,11 @@ std::string name_of(const Debugger& debugger, const CallWindow& window) {
     return fmt::format("call {}, {} {}", call, short_name(file, file.calls()[call]),
                        format_target(file.calls()[call]));
   }
-  const bool is_all = window.begin == 0 && window.end == file.event_count();
-  return is_all ? "the whole trace" : "the pass at hand";
+  const CallWindow whole = window_of(debugger);
+  const bool is_trace = whole.begin == 0 && whole.end == file.event_count();
+  const bool is_whole = window.begin == whole.begin && window.end == whole.end;
+  if (is_trace) return is_whole ? "the whole trace" : "a part of the trace";
+  return is_whole ? "the pass at hand" : "a part of the pass at hand";
 }
 
 void draw_legend(const Debugger& debugger, const CallWindow& window) {

@@ -169,10 +169,12 @@ class Window : public Host {
       inputs_.pop_front();
       if (input.is_button) lay_out();  // for the place of the mouse
       const bool is_for_panels = input.is_button || panels_take_keys();
+      const bool showed_keys = document_.show_keys;
       guarded(document_, input.deliver);
       if (is_for_panels) lay_out();
       // The next key may be the answer, however soon it comes.
-      if (document_.question != FileQuestion::none || document_.waiting) settle();
+      const bool has_field = document_.show_keys && !showed_keys;
+      if (document_.question != FileQuestion::none || document_.waiting || has_field) settle();
     }
   }
 
@@ -279,7 +281,10 @@ class Window : public Host {
   /// Keys without a character, and those with Ctrl; the others come as characters.
   void on_key(int key, int code, int action, int mods) {
     if (action != GLFW_RELEASE && panels_take_keys()) note_key_of_panel(key);
-    if (action == GLFW_RELEASE || panels_take_keys()) return;
+    const bool is_letter = key < GLFW_KEY_F1 || key > GLFW_KEY_F12;
+    const bool is_for_panels =
+        is_letter ? panels_take_keys() : ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup);
+    if (action == GLFW_RELEASE || is_for_panels) return;
     if (key == GLFW_KEY_ESCAPE) return controller_.key("Escape");
     constexpr std::array<std::pair<int, const char*>, 12> kNamed = {
         {{GLFW_KEY_TAB, "Tab"},

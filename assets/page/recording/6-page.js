@@ -99,6 +99,15 @@ function goToBall({centre, radius}, isSudden) {
 
 let inView = {call: undefined, ball: null};
 
+// What does not fit into its card is reached by keys, too.
+function letKeysScroll() {
+  for (const region of [byId("tables-card"), ...document.querySelectorAll(".scrolls")]) {
+    const isCut = region.scrollHeight > region.clientHeight + 1;
+    if (isCut && !region.querySelector("a, button")) region.tabIndex = 0;
+    else region.removeAttribute("tabindex");
+  }
+}
+
 function show(isSudden = false) {
   const step = steps[place.step];
   present.goTo(place.step);
@@ -120,6 +129,7 @@ function show(isSudden = false) {
   showLegend(scene);
   showLesson(step, call);
   showPlace(step, filling ? total : 0);
+  letKeysScroll();
   for (const button of document.querySelectorAll("[data-when]")) button.setAttribute("aria-pressed", String(button.dataset.when === view.when));
   byId("along").disabled = axisOf(call) === null;
   const after = document.querySelector("[data-when=after]");
@@ -302,6 +312,7 @@ document.addEventListener("keydown", (event) => {
   const isTyping = (event.target.matches("input[type=range]") && event.key.startsWith("Arrow")) || event.target.matches("input[type=text]");
   const isPressing = event.target.matches("button, input") && event.key === " ";
   if (isTyping || isPressing || event.ctrlKey || event.altKey || event.metaKey || byId("keys").open) return;
+  if (event.target.matches(".scrolls, .tables") && ["ArrowUp", "ArrowDown"].includes(event.key)) return;
   if (event.target === canvas && turnByKey(event, camera)) return redrawPicture();
   const found = KEYS.find(([keys]) => keys.includes(event.key));
   if (!found) return;

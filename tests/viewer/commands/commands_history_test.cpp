@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
+
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 
 #include "kernel/error.h"
 #include "kernel/formats/mesh_io.h"
@@ -78,6 +81,25 @@ TEST_CASE("the selection is asked for, and numbers of a file count from 0") {
   const auto by_selection = find_command("history").run(s.session, nlohmann::json::array());
   CHECK(by_file["vertices"] == by_selection["vertices"]);
   CHECK(by_file["text"] == by_selection["text"]);
+}
+
+TEST_CASE("the visits that a history counts lead to its tet") {
+  const test::TracedBall trace;
+  TraceSession s(trace.path());
+  const auto told = find_command("history").run(s.session, {"tet:worst"});
+  REQUIRE(told["visited"].size() > 0);
+  CHECK(told["visited"].size() == told["visits"]);
+  for (const auto& visit : told["visited"]) {
+    find_command("to_begin").run(s.session, {});
+    const auto condition = fmt::format("visit {}", visit.get<int>());
+    REQUIRE(find_command("run_to").run(s.session, {condition}).get<bool>());
+    CHECK(s.document.debugger()->visit() == visit.get<std::uint32_t>());
+    const auto named = s.document.pointed_selection(s.document.selection());
+    CHECK(nlohmann::json(named.vertices.size()) == told["vertices"].size());
+    for (const VertexHandle v : named.vertices) {
+      CHECK(std::count(told["vertices"].begin(), told["vertices"].end(), v.index()) == 1);
+    }
+  }
 }
 
 TEST_CASE("questions that make no sense are errors that say what is valid, and nothing moves") {

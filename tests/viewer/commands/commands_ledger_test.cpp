@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 
 #include "kernel/error.h"
 #include "tests/support/example_traces.h"
@@ -99,9 +100,56 @@ TEST_CASE("another run stands beside the one that is looked at") {
   const auto made = s.run("against", {(folder / "b.trace").string()});
   CHECK(made["bad_here"] > made["bad_there"]);
   CHECK(made["bad_here_good_there"].size() > 5);
-  REQUIRE(s.document.debugger()->other());
-  CHECK(s.document.debugger()->other()->comparison.a.all.total().calls == s.file().calls().size());
+  REQUIRE(s.document.debugger()->other() != nullptr);
+  const RunComparison& found = s.document.debugger()->other()->comparison();
+  CHECK(found.a.all.total().calls == s.file().calls().size());
+  // Its names outlive the making of the comparison.
+  const TraceFile there(folder / "b.trace");
+  const auto rows = found.b.by_operator();
+  const auto wanted = make_ledger(there).by_operator();
+  REQUIRE(rows.size() == wanted.size());
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    CHECK(rows[i].operator_name == wanted[i].operator_name);
+  }
   CHECK_THROWS_AS(s.run("against", {(folder / "none.trace").string()}), Error);
+}
+
+TEST_CASE(
+    "a tet that one run alone left bad is looked at in both, at one place, with both histories") {
+  const test::TempFolder folder;
+  TetMesh mesh(test::delaunay_ball(120, 3));
+  TetMesh again = mesh;
+  test::record(mesh, folder / "a.trace", {}, {}, Schedule("smooth.lua", "smooth{}"));
+  test::record(again, folder / "b.trace");
+  LedgerSession s(folder / "a.trace");
+  CHECK_THROWS_WITH_AS(s.run("beside", {0}), doctest::Contains("no other run"), Error);
+  s.run("against", {(folder / "b.trace").string()});
+  s.run("seek", {30});
+  const std::size_t count = s.document.debugger()->other()->comparison().worse_in_a.size();
+  const auto found = s.run("beside", {1});
+  CHECK(s.document.debugger()->position() == 30);
+  CHECK(found["here"] == s.run("history", {"tet:" + [&] {
+                                 std::string numbers;
+                                 for (const auto& v : found["bad"]) {
+                                   numbers += fmt::format("{}{}", numbers.empty() ? "" : ",",
+                                                          v.get<int>());
+                                 }
+                                 return numbers;
+                               }()})["text"]);
+  CHECK(found["there"].get<std::string>().starts_with("Tet "));
+  const PlaceInBoth& place = *s.document.debugger()->other()->place();
+  REQUIRE(place.here.size() > 3);
+  REQUIRE(place.there.size() > 3);
+  CHECK(place.here.front().quality == found["bad_quality"].get<Quality>());
+  CHECK(place.there.front().quality == found["good_quality"].get<Quality>());
+  const auto middle = [](const std::vector<LocalTet>& tets) {
+    Point sum(0, 0, 0);
+    for (const LocalTet& tet : tets) sum += tet.corners[0] + tet.corners[3];
+    return Point(sum / (2.0 * static_cast<double>(tets.size())));
+  };
+  CHECK((middle(place.here) - middle(place.there)).norm() < place.ball.radius);
+  CHECK_THROWS_AS(s.run("beside", {count}), Error);
+  CHECK(s.document.debugger()->other()->place()->number == 1);
 }
 
 TEST_CASE("no breakpoint of a live run asks what only a record knows") {

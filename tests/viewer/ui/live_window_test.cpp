@@ -29,8 +29,12 @@ TEST_CASE("the window serves keys while a run works, and closes on one that is p
   write_mesh(folder / "large.meshb", kuhn_cube(32, 0.3, 1));  // a run of seconds: F7 comes in time
   Viewer viewer(folder / "large.meshb");
   const auto whole = take_picture(".");
-  type("key F6 key F7 sleep 0.5 key F9 sleep 0.5 key F10 sleep 0.5");
-  type("key b sleep 0.5");
+  type("key F6 key F7");
+  wait_until_still();  // held
+  const auto held = take_picture(".");
+  type("key F9");
+  wait_for_change(held, 0, held.height);
+  type("key F10 key b");
   CHECK(take_picture(".").pixels != whole.pixels);
   const nlohmann::json state = viewer.quit();
   CHECK((state["run"] == "paused" || state["run"] == "running"));

@@ -88,6 +88,24 @@ TEST_CASE("in the dialog for files a part of a name and the arrows are enough") 
   CHECK(state["recent"][1].get<std::string>().ends_with("other.trace"));
 }
 
+TEST_CASE("the list of keys is searched by typing, and its keys close it") {
+  if (!can_test_window()) return;
+  Viewer viewer("sheet.mesh");
+  wait_until_still();
+  type("key F1 type bet");  // each of these letters is a key, too
+  type("key F1");
+  wait_until_still();  // with the line that tells of the picture
+  const Image after = take_picture(".");
+  type("key F1 type bet");
+  type("key Escape");
+  CHECK(is_same(take_picture("."), after));
+  type("key e");
+  const auto state = viewer.quit();
+  CHECK(state["view"]["bad"] == true);
+  CHECK(state["view"]["theme"] == "light");
+  CHECK(state["view"]["edges"] == false);  // typed when it was closed
+}
+
 TEST_CASE("quitting asks where something is unsaved, and Escape stays") {
   if (!can_test_window()) return;
   Viewer viewer("sheet.mesh");
