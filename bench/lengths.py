@@ -122,6 +122,10 @@ class Share:
     possible: float
     edges: int
 
+    def off(self) -> int:
+        """Edges out of range."""
+        return round((1 - self.certain) * self.edges)
+
     def holds(self, share: float) -> bool:
         return self.certain - 1e-12 <= share <= self.possible + 1e-12
 
