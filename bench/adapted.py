@@ -43,6 +43,7 @@ RUNS = 200
 FLOOR = 0.35  # the quality that splits and contractions leave at least
 SHIPPED = ["two_materials.mesh", "folded_sheet.mesh", "sheet.mesh"]
 MOST_TETS = 1000  # that a size asks for
+MANY_EVERY, MANY_TETS = 50, 60000  # runs: so many that threads have several blocks each
 SECONDS = 40  # of the processor for a run, at most
 LINEAR = (3.0, 2.0, -5.0, 0.25)  # an array of the points: a constant, then what it grows by along each axis
 TOO_LONG = f"over {SECONDS} s of the processor"  # no promise: counted as missed
@@ -137,6 +138,13 @@ def finest(lengths_wanted: np.ndarray, mesh: Mesh) -> float:
     volumes = np.abs(np.array(kinds.volumes(mesh, mesh.tets))) / 6
     tets = float(np.sum(volumes * np.mean(at ** -3.0, axis=1)) * 12 / math.sqrt(2))
     return max(1.0, (tets / MOST_TETS) ** (1 / 3))
+
+
+def add_many(given: Given) -> None:
+    mesh = given.model.mesh
+    given.wanted = (6 * math.sqrt(2) * volume_of(mesh) / MANY_TETS) ** (1 / 3)
+    given.options += ["--size", repr(given.wanted), "--goal", "10"]
+    given.goal = 10.0
 
 
 def add_sizes(given: Given, chance: random.Random) -> None:
@@ -239,6 +247,9 @@ def make(number: int) -> Given:
     suffix = ".mesh" if kind != "periodic" and (chance.random() < 0.3 or model.mesh.sections) else ".msh"
     given = Given(f"run-{number}", kind, model, suffix)
     add_data(given, chance)
+    if number % MANY_EVERY == 0:
+        add_many(given)
+        return given
     add_surface(given, chance)
     add_sizes(given, chance)
     add_goal(given, chance)
