@@ -53,6 +53,7 @@ Other measurements, each with a --help and a --write of its own:
   script/bench --cores [MESH]          what more cores make of a run: measured, and by a model
   script/bench --files [MESH]          reading and writing of each format
   script/bench --promises [MESH...]    is a figure ever worse than before: meshes of all kinds
+  script/bench --adapted [NUMBER...]   does tetmend adapt keep its promises, in runs made by chance
   script/bench --renumbered MESH...    what the order of vertices and tets changes
   script/bench --solvers [MESH...]     what solvers feel: error, CG steps, explicit steps
   script/bench --tangled [MESH...]     what is left of inverted tets in meshes that can be repaired

@@ -8,6 +8,9 @@ local floor      = parameter{"floor", default = 0.35, low = 0, high = 2,
 local improves   = parameter{"improve", default = true,
                              help = "do what the default does, at the end"}
 
+-- Where many inverted tets are neighbours, hardly a split or contraction leaves tets that may stay.
+untangle{}
+
 judge_by{measure = "sine"}
 for round = 1, max_rounds do
   begin_round()

@@ -31,7 +31,7 @@ NAVIGATION: dict[str, list[str]] = {
               "howto/dealii", "howto/mfem", "howto/moose", "howto/code_aster", "howto/simvascular", "howto/simnibs", "howto/others", "python", "library", "kernel", "c", "howto/ci", "layers", "surface", "sizes", "pieces", "viewer", "examples"],
     "extending": ["operators", "schedules", "trace", "contributing", "portability"],
     "overview": ["glossary", "deviations"],
-    "results": ["experiments", "results/rivals", "results/schedules", "results/ablation", "results/promises",
+    "results": ["experiments", "results/rivals", "results/schedules", "results/ablation", "results/promises", "results/adapted",
                 "results/tangled", "results/renumbered", "results/reconnection", "results/angles",
                 "results/constraints", "results/surface", "results/sizes", "results/solvers", "results/cores", "results/growth", "results/viewing",
                 "results/ranks", "results/files", "results/parts"],

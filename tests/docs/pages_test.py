@@ -38,6 +38,8 @@ ELSEWHERE = {
         "a plugin and a program are built against an installed tetmend, and run",
     "mpirun -n 2 build/petsc/improve_plex -dm_plex_filename part.msh -better_dm_view hdf5:better.h5":
         "a plugin and a program are built against an installed tetmend, and run",
+    "python3 examples/adapting/poisson_peak.py": "the example poisson_peak.py does what docs/sizes.md says",
+    "python3 examples/adapting/moving_front.py": "the example moving_front.py does what docs/sizes.md says",
     "cmake -S plugins -B build/plugins -DCMAKE_PREFIX_PATH=~/tetmend":
         "a plugin and a program are built against an installed tetmend, and run",
     "cmake --build build/plugins": "a plugin and a program are built against an installed tetmend, and run",

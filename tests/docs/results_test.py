@@ -61,6 +61,7 @@ NOT_RUN = {
     "fuzzing": "counts of what was tried",
     "parts": "times only",
     "promises": "sums over more than a thousand runs",
+    "adapted": "medians over hundreds of runs",
     "ranks": "large meshes only",
     "solvers": "needs DOLFINx and CalculiX",
     "viewing": "times only",

@@ -3,6 +3,7 @@
 #include "schedule/adapt.h"
 
 #include <memory>
+#include <random>
 #include <set>
 
 #include <doctest/doctest.h>
@@ -92,6 +93,33 @@ TEST_CASE("no pass under wanted lengths undoes what splits and contractions have
     CHECK(now.edges - now.in_range <= then.edges);
     CHECK(now.longest <= then.longest * (1 + 1e-6));
   }
+}
+
+TEST_CASE("the schedule of sizes makes edges as long as wanted where tets were inverted, too") {
+  MeshData data = kuhn_cube(6, 0, 1);
+  std::mt19937 chance(7);
+  const auto shift = [&] { return 0.3 * (static_cast<double>(chance()) / 4294967295.0 - 0.5); };
+  for (Point& p : data.points) {
+    const bool is_inner = p.minCoeff() > 0.01 && p.maxCoeff() < 0.99;
+    for (double& x : p) x += is_inner ? shift() : 0;
+  }
+  TetMesh mesh(data);
+  const auto wanted = std::make_shared<WantedLengths>(0.1);
+  mesh.set_size_field(wanted);
+  const auto inverted = [&] {
+    std::size_t count = 0;
+    for (std::uint32_t i = 0; i < mesh.tet_slots(); ++i) {
+      const TetHandle t(i);
+      count += !mesh.is_deleted(t) && !(mesh.quality(t) > 0) ? 1 : 0;
+    }
+    return count;
+  };
+  CHECK(inverted() > mesh.tet_count() / 10);
+  Run run(mesh, kRegistry);
+  improve(run, Schedule::builtin("adapt"));
+  CHECK(inverted() == 0);
+  CHECK(inside(mesh, *wanted).of_range() > 0.9);
+  CHECK(check_integrity(mesh).empty());
 }
 
 TEST_CASE("the schedule of sizes does the same on one thread and on three") {
