@@ -127,6 +127,9 @@ SizeStatistics SizeCounts::statistics() const {
 SizeCounts count_sizes(const TetMesh& mesh, const WantedLengths& wanted, const SizeScope& scope) {
   const std::vector<double> lengths = lengths_at_vertices(mesh, wanted);
   const EdgeKeys keys(mesh, scope);
+  const auto is_wall = [&](VertexHandle v) {
+    return mesh.is_fixed(v) && (!scope.has_vertex || scope.has_vertex(v));
+  };
   SizeCounts sizes;
   for (const std::uint64_t key : keys.all) {
     const VertexHandle a(static_cast<std::uint32_t>(key >> 32));
@@ -137,7 +140,7 @@ SizeCounts count_sizes(const TetMesh& mesh, const WantedLengths& wanted, const S
     if (WantedLengths::fit(length) >= 1) continue;
     if (std::binary_search(keys.on_surface.begin(), keys.on_surface.end(), key)) {
       ++sizes.on_surface;
-    } else if (mesh.is_fixed(a) && mesh.is_fixed(b)) {
+    } else if (is_wall(a) && is_wall(b)) {
       ++sizes.between_walls;
     }
   }

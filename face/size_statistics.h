@@ -32,14 +32,15 @@ struct SizeCounts {
   SizeStatistics statistics() const;
 };
 
-/// Which edges and tets of a mesh are of a share; without functions all are. All tets at an edge of the
-/// share must be there.
+/// Which edges, tets and vertices of a mesh are of a share; without functions all are. All tets at an edge
+/// or a vertex of the share must be there.
 struct SizeScope {
   std::function<bool(VertexHandle, VertexHandle)> has_edge = {};
   std::function<bool(TetHandle)> has_tet = {};
+  std::function<bool(VertexHandle)> has_vertex = {};
 };
 
-/// Cost: n log n. Where the scope cuts tets away, their vertices may count as fixed.
+/// `between_walls` counts edges whose ends are both of the share. Cost: n log n.
 SizeCounts count_sizes(const TetMesh& mesh, const WantedLengths& wanted,
                        const SizeScope& scope = {});
 /// Precondition: the mesh has wanted lengths.

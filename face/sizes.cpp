@@ -243,8 +243,19 @@ class LinearLengths {
   TetLocator locator_;
 };
 
+/// @param largest 0: none
+double clamped(double length, double smallest, double largest) {
+  length = std::max(length, smallest);
+  return largest > 0 ? std::min(length, largest) : length;
+}
+
+/// @throws Error as that does, with the place
 double call(const LuaFunction& function, const Point& at) {
-  return function(std::array{at.x(), at.y(), at.z()});
+  try {
+    return function(std::array{at.x(), at.y(), at.z()});
+  } catch (const Error& error) {
+    throw Error(fmt::format("{}, at ({:g}, {:g}, {:g})", error.what(), at.x(), at.y(), at.z()));
+  }
 }
 
 /// @throws Error for a length that is none; `length` as the file has it
@@ -356,8 +367,7 @@ Sizes::Sizes(const Options& options)
 }
 
 double Sizes::clamped(double length) const {
-  length = std::max(length, smallest_);
-  return largest_ > 0 ? std::min(length, largest_) : length;
+  return face::clamped(length, smallest_, largest_);
 }
 
 bool Sizes::is_alone(Spec::Kind kind) const {
@@ -366,7 +376,9 @@ bool Sizes::is_alone(Spec::Kind kind) const {
 
 std::shared_ptr<const WantedLengths> Sizes::field_of(Function function, std::string name,
                                                      const Scale& scale) const {
-  const auto within = [*this](double length) { return clamped(length); };
+  const auto within = [smallest = smallest_, largest = largest_](double length) {
+    return face::clamped(length, smallest, largest);
+  };
   return std::make_shared<WantedLengths>(
       [function = std::move(function), name = std::move(name), within, scale](const Point& place) {
         const Point at = scale.to_file(place);
@@ -380,13 +392,10 @@ std::shared_ptr<const WantedLengths> Sizes::field_of(Function function, std::str
 }
 
 std::string Sizes::of_mesh() const {
-  for (const Spec& spec : specs_) {
-    using Kind = Spec::Kind;
-    const bool is_of_place =
-        is_alone(Kind::constant) || is_alone(Kind::function) || is_alone(Kind::background);
-    if (!is_of_place) return spec.text;
-  }
-  return {};
+  using Kind = Spec::Kind;
+  const bool are_of_places = specs_.empty() || is_alone(Kind::constant) ||
+                             is_alone(Kind::function) || is_alone(Kind::background);
+  return are_of_places ? std::string() : specs_.back().text;
 }
 
 std::shared_ptr<const WantedLengths> Sizes::field_of_places() const {

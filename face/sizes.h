@@ -23,9 +23,13 @@ class Sizes {
   explicit Sizes(const Options& options);
 
   bool are_wanted() const { return !specs_.empty() || function_; }
-  /// The first of Options::size that only the whole mesh tells: an array of its own, a factor, a region.
-  /// Empty: the lengths are of places.
+  /// One of Options::size that only the whole mesh tells: an array of its own, a factor, a region, a size
+  /// beside others. Empty: the lengths are of places.
   std::string of_mesh() const;
+  /// The file that has these lengths; empty: none.
+  std::string file_of_places() const {
+    return of_mesh().empty() && !specs_.empty() ? specs_[0].file : std::string();
+  }
   /// The field where they are of places, for a mesh in the lengths of its file. Precondition: of_mesh() is empty.
   /// @throws Error for a file or array that cannot be used
   std::shared_ptr<const WantedLengths> field_of_places() const;

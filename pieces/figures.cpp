@@ -310,16 +310,9 @@ face::SizeCounts sizes_of_own(const TetMesh& mesh, std::span<const std::uint32_t
   const auto field = in_work(of_file, mesh.scale());
   const WantedLengths& wanted = *field;
   const auto has_tet = [&](TetHandle t) { return own.has(gathered.tets[numbers[t.index()]]); };
-  const auto is_inside = [&](VertexHandle a, VertexHandle b) { return own.has(a) && own.has(b); };
-  const auto is_shared = [&](VertexHandle a, VertexHandle b) {
-    return own.has(a, b) && !is_inside(a, b);
-  };
-  const auto none = [](TetHandle) { return false; };
-  face::SizeCounts all = face::count_sizes(mesh, wanted, {is_inside, has_tet});
-  face::SizeCounts shared = face::count_sizes(mesh, wanted, {is_shared, none});
-  shared.between_walls = 0;  // vertices of other parts are cut
-  all.add(shared);
-  return all;
+  const auto has_edge = [&](VertexHandle a, VertexHandle b) { return own.has(a, b); };
+  const auto has_vertex = [&](VertexHandle v) { return own.has(v); };
+  return face::count_sizes(mesh, wanted, {has_edge, has_tet, has_vertex});
 }
 
 }  // namespace

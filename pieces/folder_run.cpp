@@ -37,7 +37,6 @@ class Tools {
         watcher_(options),
         settings_(plan_.schedule, plan_.settings),
         task_{plan_.registry, plan_.schedule, settings_, plan_.standard} {
-    if (plan_.sizes.are_wanted()) task_.size_field = plan_.sizes.field_of_places();
     task_.check_operators = options.check_operators;
     task_.watch = [this](Run& run) {
       run.set_listener(&watcher_);
@@ -81,7 +80,13 @@ SavedRun begun(const OutOfCore& files, const Options& options, const Division& d
 }  // namespace
 
 FolderRun::FolderRun(const std::filesystem::path& folder, const ArrayFiles* array_files)
-    : folder_(folder), saved_(folder_.load()), array_files_(array_files) {}
+    : folder_(folder), saved_(folder_.load()), array_files_(array_files) {
+  for (const auto& [name, value] : saved_.options) {
+    if (name != "size") continue;
+    throw Error(fmt::format("{}: has a run of 'tetmend adapt': repeat the command that began it",
+                            folder_.path().string()));
+  }
+}
 
 /// Others may have gone on since the state was loaded.
 void FolderRun::load_again() {

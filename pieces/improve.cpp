@@ -159,16 +159,20 @@ void Improvement::prepare() {
   divided_.end_slices();
 }
 
+/// The field is one of the file.
 void Improvement::hold_lengths(TetMesh& mesh) {
   if (plan_.sizes.are_wanted()) {
-    if (!mesh.scale().is_one()) {  // the field is to be one of the file
-      throw Error("size: lengths so far from ordinary cannot be adapted in pieces: scale the mesh");
+    const std::string size = plan_.sizes.of_mesh();
+    if (!size.empty() && !mesh.scale().is_one()) {
+      throw OptionError("size", fmt::format("size {}: the lengths of the mesh are so far from "
+                                            "ordinary that it cannot be adapted in pieces",
+                                            size));
     }
-    size_field_ = plan_.sizes.field(input_, mesh);
+    size_field_ = size.empty() ? plan_.sizes.field_of_places() : plan_.sizes.field(input_, mesh);
+    mesh.set_size_field(in_work(*size_field_->wanted(), mesh.scale()));
   } else if (options_.keep_size && mesh.scale().is_one()) {
     size_field_ = std::make_shared<UsualLengths>(mesh);
   }
-  mesh.set_size_field(size_field_);
 }
 
 void Improvement::measure_before(const TetMesh& mesh) {
@@ -292,7 +296,7 @@ void Improvement::measure_after(Joined& joined) {
   result_.after = compute_statistics(mesh, options_.goal);
   result_.rulers_after = measure_rulers(mesh);
   if (plan_.sizes.are_wanted()) {
-    mesh.set_size_field(size_field_);
+    mesh.set_size_field(in_work(*size_field_->wanted(), mesh.scale()));
     result_.sizes_after = face::size_statistics(mesh);
   }
   face::LocalLengths now(input_.points.size());

@@ -287,7 +287,7 @@ void check_for_files(const Options& options) {
   };
   refuse(options.keep_size, "keep_size", "keep-size");
   const std::string size = face::Sizes(options).of_mesh();
-  refuse(!size.empty(), "size", fmt::format("size: '{}'", size));
+  refuse(!size.empty(), "size", fmt::format("size {}", size));
   refuse(options.ignore_interior, "ignore_interior", "ignore-interior");
   refuse(options.straighten, "straighten", "straighten");
 }

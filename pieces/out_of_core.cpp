@@ -88,7 +88,8 @@ class FileRun {
   face::Watcher watcher_;
   RunFolder checkpoint_;
   std::optional<FolderLock> lock_;  // of the first rank, where there is a checkpoint
-  FileIdentity input_content_;      // likewise
+  FileIdentity input_content_;      // likewise, as the next
+  FileIdentity size_content_;
   PieceTrace trace_;
   std::unique_ptr<Shelf> shelf_;
   std::optional<DividedMesh> mesh_;
@@ -253,6 +254,7 @@ SavedRun FileRun::saved() const {
   run.input = std::filesystem::absolute(files_.input).string();
   run.output = std::filesystem::absolute(files_.output).string();
   run.input_content = input_content_;
+  run.size_content = size_content_;
   run.vertices = vertices_;
   run.holds_more = holds_more_;
   run.label_array = files_.label_array;
@@ -265,6 +267,11 @@ SavedRun FileRun::saved() const {
 
 /// All ranks, or none.
 void FileRun::lock() {
+  if (options_.size_at) {
+    throw OptionError("size_at",
+                      "size_at: a checkpoint cannot keep a function of a program: "
+                      "give size, a script with a function");
+  }
   std::string trouble;
   try {
     if (ranks_.is_first()) lock_.emplace(files_.checkpoint, platform::Sharing::none);
@@ -274,6 +281,8 @@ void FileRun::lock() {
   const std::string told = ranks_.gather(trouble).front();
   if (!told.empty()) throw Error(told);
   input_content_ = identify(files_.input, ranks_);
+  const std::string lengths = plan_.sizes.file_of_places();
+  if (!lengths.empty()) size_content_ = identify(lengths, ranks_);
 }
 
 /// False: there is nothing to go on from.
@@ -283,7 +292,8 @@ bool FileRun::go_on() {
   limit_pieces(found.before.figures.statistics.tets);
   const SavedRun mine = saved();
   if (found.input != mine.input || found.input_content != mine.input_content ||
-      found.options != mine.options || found.label_array != mine.label_array || found.is_finished ||
+      found.size_content != mine.size_content || found.options != mine.options ||
+      found.label_array != mine.label_array || found.is_finished ||
       (division_.pieces != 0 && division_.pieces != found.division.pieces)) {
     throw Error(fmt::format("{}: has a run of another mesh, or with other options",
                             files_.checkpoint.string()));

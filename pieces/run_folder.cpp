@@ -32,6 +32,8 @@ void append(const SavedRun& saved, std::string& bytes) {
   put(saved.output, bytes);
   put(saved.input_content.size, bytes);
   put(saved.input_content.checksum, bytes);
+  put(saved.size_content.size, bytes);
+  put(saved.size_content.checksum, bytes);
   put(saved.vertices, bytes);
   put(saved.holds_more, bytes);
   put(saved.label_array, bytes);
@@ -65,6 +67,8 @@ std::uint32_t number_of(const SavedRun& saved) {
   put(saved.input, bytes);
   put(saved.input_content.size, bytes);
   put(saved.input_content.checksum, bytes);
+  put(saved.size_content.size, bytes);
+  put(saved.size_content.checksum, bytes);
   put(saved.label_array, bytes);
   for (const auto& [name, value] : saved.options) {
     put(name, bytes);
@@ -102,6 +106,8 @@ SavedRun take_run(std::string_view bytes) {
   take(bytes, saved.output);
   take(bytes, saved.input_content.size);
   take(bytes, saved.input_content.checksum);
+  take(bytes, saved.size_content.size);
+  take(bytes, saved.size_content.checksum);
   take(bytes, saved.vertices);
   take(bytes, saved.holds_more);
   take(bytes, saved.label_array);

@@ -33,6 +33,7 @@ struct SavedRun {
   std::string input;  ///< absolute path
   std::string output;
   FileIdentity input_content;
+  FileIdentity size_content;   ///< of the file that has the wanted lengths, if there is one
   std::uint64_t vertices = 0;  ///< of the input
   bool holds_more = false;     ///< it has more than labels and constraints
   std::string label_array;     ///< see read_mesh()

@@ -12,14 +12,15 @@ namespace tetmend {
 
 namespace {
 
-constexpr std::size_t kMostWatches = 10'000;  // ten million instructions
+/// Three hundred million instructions; fewer where the script holds large tables, and each look is dear.
+constexpr std::size_t kMostWatches = 300'000;
 
 }  // namespace
 
 struct LuaFunction::Interpreter {
   std::size_t watches = 0;  // of the present call
   LuaState lua{LuaState::Limits{}, [this] {
-                 if (++watches > kMostWatches) throw Error("it takes too long: it does not end");
+                 if (++watches > kMostWatches) throw Error("a call does not come to an end");
                }};
 };
 

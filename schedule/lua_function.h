@@ -21,7 +21,7 @@ class LuaFunction {
   LuaFunction(const std::filesystem::path& file, std::string function);
 
   /// Cost: see LuaState::call().
-  /// @throws Error as that, and for a call of more than ten million instructions
+  /// @throws Error as that, and for a call that does not come to an end
   double operator()(std::span<const double> arguments) const;
 
  private:

@@ -8,7 +8,7 @@ local floor      = parameter{"floor", default = 0.35, low = 0, high = 2,
 local improves   = parameter{"improve", default = true,
                              help = "do what the default does, at the end"}
 
--- Where many inverted tets are neighbours, hardly a split or contraction leaves tets that may stay.
+-- Among inverted neighbours nearly every split or contraction is refused.
 untangle{}
 
 judge_by{measure = "sine"}

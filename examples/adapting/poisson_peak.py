@@ -6,7 +6,7 @@
 
 The solution is a narrow bump in the unit cube. Each step solves on linear elements, takes the second derivatives of
 what it found for an estimate of the error, and wants edges as long as makes that error equal everywhere, for so many
-tets. Beside it stands the regular mesh with about as many unknowns. Needs DOLFINx and tetmend.
+tets. Beside it stands the regular mesh with about as many unknowns. Needs DOLFINx 0.5 and tetmend.
 """
 
 import inspect

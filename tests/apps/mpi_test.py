@@ -126,8 +126,16 @@ def adapts(folder):
                 else:
                     same = now == value
                 check(same, "other sizes", command, moment, name, now, value)
+    saved = words(script, "--checkpoint", folder / "stopped", "--time-limit", "2")
+    done = run(PROGRAM, "adapt", *saved)
+    if taken(folder) != expected:  # stopped between two divisions, as a rule
+        script.write_text("function size(x, y, z) return 3 end")
+        done = run(PROGRAM, "adapt", *saved)
+        check(done.returncode == 1 and "with other options" in done.stderr, "another function goes on", done.stderr)
+        done = run(PROGRAM, "pieces", "improve", folder / "stopped")
+        check(done.returncode == 1 and "repeat the command" in done.stderr, "tasks of adapt", done.returncode, done.stderr)
     done = run(PROGRAM, "adapt", *words("0.5x", "--memory", "1G"))
-    check(done.returncode == 2 and "--size: '0.5x': needs the whole mesh in memory" in done.stderr and taken(folder) is None,
+    check(done.returncode == 2 and "--size 0.5x: needs the whole mesh in memory" in done.stderr and taken(folder) is None,
           "a size that the whole mesh tells", done.returncode, done.stderr)
 
 

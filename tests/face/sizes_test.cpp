@@ -170,6 +170,19 @@ TEST_CASE("sizes by a function of a script: as by one of the program, on any num
   CHECK(message_of(negative).starts_with(negative + ": "));
   CHECK(message_of(negative).ends_with("is no length"));
   CHECK(message_of("label:2=" + negative).find("expected a number above 0") != std::string::npos);
+  const std::string loop = file_of("loop.lua", "function size(x, y, z)\n  while true do end\nend");
+  CHECK(message_of(loop).starts_with(loop + ":2: a call does not come to an end, at ("));
+  const std::string nearest =
+      file_of("nearest.lua",
+              "local knots = {}\n"
+              "for i = 1, 100000 do knots[i] = i / 100000 end\n"
+              "function size(x, y, z)\n"
+              "  local least = 1\n"
+              "  for i = 1, #knots do least = math.min(least, math.abs(x - knots[i])) end\n"
+              "  return 2 + least\n"
+              "end");
+  Mesh one_cell = MeshAccess::make(contract::kuhn_cube(1, 0, 1));
+  CHECK_NOTHROW(adapt(one_cell, {.size = {nearest}}));  // a large table makes each look dear
   const std::string wrong = file_of("wrong.lua", "\nfunction size(x, y, z) retrun 1 end");
   CHECK(message_of(wrong).find("wrong.lua:2: ") != std::string::npos);
   const std::string other = file_of("other.lua", "function length(x, y, z) return 1 end");

@@ -177,6 +177,20 @@ TEST_CASE("a mesh in pieces is adapted to lengths, as far as one that is whole")
   }
 }
 
+TEST_CASE("a mesh of tiny lengths is adapted in pieces, where the lengths are of places") {
+  MeshData data = lattice(6);
+  for (Point& p : data.points) p *= 1e-12;
+  Result result;
+  improved(data, {.schedule = "adapt", .surface = "flat", .size = {"2e-12"}}, 2, &result);
+  REQUIRE(result.sizes_after);
+  CHECK(result.sizes_after->in_range > result.sizes_before->in_range + 0.1);
+  Mesh mesh = MeshAccess::make(data);
+  Division division;
+  division.pieces = 2;
+  CHECK_THROWS_AS(pieces::improve(mesh, {.schedule = "adapt", .size = {"0.5x"}}, division),
+                  OptionError);
+}
+
 TEST_CASE("threads, folders and files do not show in the result") {
   const MeshData data = lattice(10);
   const MeshData expected = improved(data, {}, 5);

@@ -28,6 +28,8 @@ class OtherRun {
  public:
   /// @throws Error as TraceFile does. Precondition: `here` outlives this. Cost: see compare_runs().
   OtherRun(const TraceFile& here, std::filesystem::path name);
+  OtherRun(const OtherRun&) = delete;  // parts of it name others
+  OtherRun& operator=(const OtherRun&) = delete;
 
   const std::filesystem::path& name() const { return name_; }
   const RunComparison& comparison() const { return comparison_; }  ///< `a` is the run here

@@ -247,8 +247,9 @@ void watch(Session& session) {
   const bool is_entered = ImGui::InputTextWithHint("##breakpoint", "edge 3 17 and refused", &typed,
                                                    ImGuiInputTextFlags_EnterReturnsTrue);
   ImGui::SameLine();
-  if (ImGui::Button("breakpoint") || is_entered)
+  if (ImGui::Button("breakpoint") || is_entered) {
     run_from_window(find_command("breakpoint"), session, {typed});
+  }
   std::size_t gone = live.breakpoints.size();
   for (std::size_t i = 0; i < live.breakpoints.size(); ++i) {
     ImGui::PushID(static_cast<int>(i));

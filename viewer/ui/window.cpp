@@ -281,9 +281,9 @@ class Window : public Host {
   /// Keys without a character, and those with Ctrl; the others come as characters.
   void on_key(int key, int code, int action, int mods) {
     if (action != GLFW_RELEASE && panels_take_keys()) note_key_of_panel(key);
-    const bool is_letter = key < GLFW_KEY_F1 || key > GLFW_KEY_F12;
+    const bool is_function_key = key >= GLFW_KEY_F1 && key <= GLFW_KEY_F12;
     const bool is_for_panels =
-        is_letter ? panels_take_keys() : ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup);
+        is_function_key ? ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup) : panels_take_keys();
     if (action == GLFW_RELEASE || is_for_panels) return;
     if (key == GLFW_KEY_ESCAPE) return controller_.key("Escape");
     constexpr std::array<std::pair<int, const char*>, 12> kNamed = {

@@ -107,7 +107,7 @@ class Callbacks {
       length = PyFloat_AsDouble(answer.ptr());
       if (PyErr_Occurred() != nullptr) throw py::error_already_set();
     });
-    if (failure_) throw Error("size: the function has failed");
+    if (failure_) throw Error("a function of Python has failed");
     return length;
   }
 

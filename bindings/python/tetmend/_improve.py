@@ -259,8 +259,8 @@ def adapt(points: ArrayLike | Mesh | Result, tets: ArrayLike | str | None = None
 
     size  0.5, a length; "0.5x", half of what edges are there; "array:h", an array of point_data; "h.sol", a file of MEDIT;
           "coarse.vtu:h", an array of another mesh; "h.lua", a function size(x, y, z) of a script; or one of these for a region,
-          "label:3=0.2"; or several of them; or a function of x, y and z, which any thread may call and gives the same
-          whenever it is asked
+          "label:3=0.2"; or several of them; or a function of x, y and z. Any thread may call it, one at a time,
+          and it must always say the same of a place
 
     All else is as for improve(), also gradation=1.3, smallest and largest, the bounds of wanted lengths. The surface stays, and so
     do its edges, unless the option surface lets it move. The figures of the input are no bounds.
