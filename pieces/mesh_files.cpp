@@ -383,6 +383,12 @@ OptionTexts texts_of(const Options& options) {
   }
   add("goal", fmt::format("{},{}", options.goal.min_angle, options.goal.max_angle));
   add("measure", options.measure);
+  for (const std::string& size : options.size) add("size", size);
+  if (!options.size.empty()) {
+    add("gradation", fmt::format("{}", options.gradation));
+    add("smallest", fmt::format("{}", options.smallest));
+    add("largest", fmt::format("{}", options.largest));
+  }
   add("surface", options.surface);
   if (!options.surface.empty()) add("feature-angle", fmt::format("{}", options.feature_angle));
   add("layers", options.layers == Layers::keep ? "keep" : "improve");

@@ -132,6 +132,8 @@ def adapts(folder):
         script.write_text("function size(x, y, z) return 3 end")
         done = run(PROGRAM, "adapt", *saved)
         check(done.returncode == 1 and "with other options" in done.stderr, "another function goes on", done.stderr)
+        done = run(PROGRAM, "adapt", *words("3", "--checkpoint", folder / "stopped"))
+        check(done.returncode == 1 and "with other options" in done.stderr, "another length goes on", done.stderr)
         done = run(PROGRAM, "pieces", "improve", folder / "stopped")
         check(done.returncode == 1 and "repeat the command" in done.stderr, "tasks of adapt", done.returncode, done.stderr)
     done = run(PROGRAM, "adapt", *words("0.5x", "--memory", "1G"))
@@ -188,7 +190,7 @@ def mistakes(folder):
     done = run(*mpi(2, *improve(folder, "--threads", "many")))
     check(done.returncode == 2 and done.stderr.count("threads") == 1, "a wrong option", done.returncode, done.stderr)
     done = run(*mpi(2, *improve(folder, "--keep-size")))
-    check(done.returncode == 1 and "needs the whole mesh" in done.stderr, "keep-size", done.stderr)
+    check(done.returncode == 2 and "needs the whole mesh" in done.stderr, "keep-size", done.stderr)
     done = run(*mpi(2, *improve(folder, "--protect", "label:77")))
     check(done.returncode != 0 and done.stderr.count("no tet has label 77") == 1, "a region without tets",
           done.returncode, done.stderr)

@@ -181,7 +181,7 @@ TEST_CASE("a mesh of tiny lengths is adapted in pieces, where the lengths are of
   MeshData data = lattice(6);
   for (Point& p : data.points) p *= 1e-12;
   Result result;
-  improved(data, {.schedule = "adapt", .surface = "flat", .size = {"2e-12"}}, 2, &result);
+  improved(data, {.schedule = "adapt", .size = {"0.6e-12"}}, 2, &result);
   REQUIRE(result.sizes_after);
   CHECK(result.sizes_after->in_range > result.sizes_before->in_range + 0.1);
   Mesh mesh = MeshAccess::make(data);
