@@ -498,10 +498,10 @@ def test_what_progress_raises_comes_out(materials):
 
 def test_lengths_may_be_a_function_of_the_place(materials, tmp_path):
     script = tmp_path / "size.lua"
-    script.write_text("function size(x, y, z) return 0.1 + 0.2 * x * x end")
+    script.write_text("function size(x, y, z) return 1.5 + 0.02 * x * x end")
     by_script = tetmend.adapt(materials, size=str(script), surface="flat")
     for threads in (1, 2):
-        by_function = tetmend.adapt(materials, size=lambda x, y, z: np.float64(0.1 + 0.2 * x * x), surface="flat", threads=threads)
+        by_function = tetmend.adapt(materials, size=lambda x, y, z: np.float64(1.5 + 0.02 * x * x), surface="flat", threads=threads)
         assert np.array_equal(by_function.points, by_script.points) and np.array_equal(by_function.tets, by_script.tets)
     assert by_function.figures["sizes_after"] == by_script.figures["sizes_after"]
 
