@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "explain/call_study.h"
 #include "trace/history.h"
 #include "trace/replay.h"
 #include "trace/run_comparison.h"
