@@ -366,7 +366,7 @@ void Improvement::measure_after() {
 }
 
 /// Passes up to the one that left the fewest bad tets, the last of such; 0 if all left more than
-/// there were.
+/// there were. Other figures may be worse there.
 std::size_t Improvement::best_pass() const {
   std::size_t best = 0;
   std::size_t n_bad = first_.n_bad;
@@ -433,14 +433,15 @@ void Improvement::put_back(Made made) {
   if (portrait_ != nullptr) measure_after();  // which draws
 }
 
-/// Some figure is worse than before: makes the run again, up to its best pass, or gives the input
-/// back. The same passes do the same, so no state needs to be kept in memory. Who stops that gets
-/// what it has reached, if no figure is worse there.
+/// Some figure is worse than before: makes the run again, up to its best pass; if one is worse there,
+/// too, up to half as many, and so on: all that is at most two runs more. The same passes do the same, so
+/// no state needs to be kept in memory. Who stops that gets what it has reached, if no figure is worse
+/// there.
 void Improvement::go_back() {
   goes_back_ = true;
   const std::string reason = fmt::format("{}", fmt::join(face::worse_for_nothing(result_), "; "));
   const std::size_t all = result_.passes.size();
-  for (const std::size_t passes : {best_pass(), std::size_t{0}}) {
+  for (std::size_t passes = best_pass();; passes = is_stopped() ? 0 : passes / 2) {
     MeshData data = input_;
     scale_.to_file(data.points);
     result_.notes.resize(notes_before_);
@@ -603,6 +604,16 @@ struct Fall {
   bool is_price = false;  // of inverted tets that were mended, which goes first
 };
 
+/// "0.33 instead of 0.34", with as many digits as tell them apart, `digits` at least.
+std::string instead_of(double now, double then, int digits) {
+  std::string shown = fmt::format("{:.{}g}", now, digits);
+  std::string other = fmt::format("{:.{}g}", then, digits);
+  if (shown == other && now != then && digits < std::numeric_limits<double>::max_digits10) {
+    return instead_of(now, then, digits + 1);
+  }
+  return shown + " instead of " + other;
+}
+
 std::vector<Fall> falls_of(const Result& result) {
   constexpr double kRounding = 1e-9;
   constexpr double kEdgeRatio = 10;
@@ -611,7 +622,7 @@ std::vector<Fall> falls_of(const Result& result) {
   const auto compare = [&](std::string_view what, double now, double then, bool is_worse,
                            bool is_price = false) {
     if (!is_worse) return;
-    falls.push_back({fmt::format("{} of {:.7g} instead of {:.7g}", what, now, then), is_price});
+    falls.push_back({fmt::format("{} of {}", what, instead_of(now, then, 7)), is_price});
   };
   const MeshStatistics& before = result.before;
   const MeshStatistics& after = result.after;
@@ -688,7 +699,7 @@ std::vector<std::string> Result::missed_aims() const {
     const double now = (*rulers_after)[ruler].mean;
     if (now >= then) continue;
     const std::string_view name = ruler == Ruler::mean_ratio ? "mean ratio" : "radius ratio";
-    missed.push_back(fmt::format("a mean {} of {:.4g} instead of {:.4g}", name, now, then));
+    missed.push_back(fmt::format("a mean {} of {}", name, instead_of(now, then, 4)));
   }
   if (rulers_after->faces_above_70 > rulers_before->faces_above_70) {
     missed.push_back(fmt::format("{} faces above 70 degrees instead of {}",

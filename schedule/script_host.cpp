@@ -3,11 +3,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
+#include <numeric>
+#include <optional>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include "kernel/bounds.h"
+#include "kernel/chunks.h"
 #include "kernel/error.h"
 #include "kernel/nearest_word.h"
 #include "kernel/printable.h"
@@ -180,6 +184,29 @@ int keep_measured(lua_State* lua) {
   lua_pushvalue(lua, 2);
   lua_rawget(lua, 3);
   return 1;
+}
+
+/// On the scale of quality(): that of the better one of the two angles with this sine. None by a measure
+/// of one's own, which need not know angles.
+std::optional<double> quality_of_sine(const Standard& standard, std::optional<double> sine) {
+  if (!sine || standard.is_own()) return std::nullopt;
+  const double angle = std::asin(std::min(*sine, 1.0)) * 180 / std::numbers::pi;
+  return std::max(standard.quality_of_angle(angle), standard.quality_of_angle(180 - angle));
+}
+
+/// Of the qualities of the 32 worst bad tets that are not frozen; 1: there are none.
+double mean_of_worst(const TetMesh& mesh) {
+  constexpr std::size_t kFew = 32;
+  std::vector<Quality> bad;
+  for (std::size_t i = 0; i < mesh.tet_slots(); ++i) {
+    const TetHandle t(static_cast<std::uint32_t>(i));
+    if (mesh.is_deleted(t) || mesh.is_frozen(t) || mesh.quality(t) >= kBadThreshold) continue;
+    bad.push_back(mesh.quality(t));
+  }
+  if (bad.empty()) return 1;
+  const auto end = bad.begin() + static_cast<std::ptrdiff_t>(std::min(kFew, bad.size()));
+  std::partial_sort(bad.begin(), end, bad.end());
+  return std::accumulate(bad.begin(), end, 0.0) / static_cast<double>(end - bad.begin());
 }
 
 }  // namespace
@@ -582,11 +609,12 @@ void ScriptHost::measure(WordCall& call) {
   const ScriptValue name = call.argument(1);
   const std::string& wanted = name.kind == ScriptValue::Kind::text ? name.text : "?";
   if (wanted != "theta_min" && wanted != "theta_max" && wanted != "lambda" &&
-      wanted != "mean_ratio") {
+      wanted != "mean_ratio" && wanted != "radius_ratio" && wanted != "q_few") {
     throw Error(
         fmt::format("quality() has no '{}'; valid: date, goal_max, goal_min, lambda, mean_ratio, "
                     "n_bad, n_needles, "
-                    "passes, q_aver, q_worst, seconds, tets, theta_max, theta_min, vertices",
+                    "passes, q_aver, q_few, q_worst, radius_ratio, seconds, tets, theta_max, "
+                    "theta_min, vertices",
                     wanted));
   }
   const ScriptValue passes = call.argument(2);
@@ -597,7 +625,12 @@ void ScriptHost::measure(WordCall& call) {
                     wanted));
   }
   ScriptValue table = ScriptValue::empty_table();
-  if (wanted == "mean_ratio") {
+  if (wanted == "q_few") {
+    table.fields = {{wanted, ScriptValue::of_number(mean_of_worst(run_->mesh()))}};
+    call.give(std::move(table));
+    return;
+  }
+  if (wanted == "mean_ratio" || wanted == "radius_ratio") {
     const double mean = summarize(run_->mesh(), find_quality_measure(wanted)).mean;
     table.fields = {{wanted, ScriptValue::of_number(mean)}};
     call.give(std::move(table));
@@ -622,7 +655,7 @@ void ScriptHost::limit(WordCall& call) {
     if (value) table.fields.push_back({name, ScriptValue::of_number(*value)});
   };
   count("n_forced", now.n_forced);
-  bound("q_worst", now.q_worst);
+  bound("q_worst", quality_of_sine(run_->mesh().standard(), now.q_worst));
   bound("theta_min", now.theta_min);
   bound("theta_max", now.theta_max);
   for (std::size_t i = 0; i < kHindranceCount; ++i) {

@@ -202,15 +202,19 @@ constexpr std::array<WordInfo, 28> kWords = {{
      "the quality of a tet whose worst angle is this, for the present goal"},
     {"quality", "quality()",
      "the mesh now: q_worst (1: the goal is just met), n_bad (tets that miss it), n_needles "
-     "(others of a quality below 1), q_aver (mean quality of both); goal_min, goal_max, theta_min, "
-     "theta_max, lambda, mean_ratio (the mean of all tets), tets, vertices; seconds (since the "
-     "start), passes (so far), date (of the "
-     "sweep that comes next, for selections). theta_min, theta_max, lambda and mean_ratio are "
-     "measured "
-     "when they are read, which must be before the next pass"},
+     "(others of a quality below 1), q_aver (mean quality of both), q_few (of the 32 worst that "
+     "are "
+     "not protected; 1: none is bad); goal_min, goal_max, theta_min, theta_max, lambda, mean_ratio "
+     "and radius_ratio (the means of all tets), tets, vertices; seconds (since the start), passes "
+     "(so far), date (of the sweep that comes next, for selections). q_few, theta_min, theta_max, "
+     "lambda, mean_ratio and radius_ratio are measured when they are read, which must be before "
+     "the "
+     "next pass"},
     {"limit", "limit()",
      "what the walls of the mesh (surface, constraints, protected tets) allow at best: n_forced, "
-     "the least number of bad tets; q_worst, theta_min, theta_max, nil where no bound is known. "
+     "the least number of bad tets; q_worst (as quality() has it), theta_min, theta_max, nil where "
+     "no "
+     "bound is known. "
      "Where the surface may move, only constraints inside count, and with --surface flat sharp "
      "feature lines. "
      "Also the numbers of bad tets by what holds them: frozen, surface, constraint, "

@@ -22,7 +22,7 @@ local worst_later    = parameter{"worst_later", default = false,
 local quick = {"recursive_shell_transformation", max_level = 2, order = "angle", most_edges = 1}
 local dire  = {below = 0.5, at_least = 100}
 local worst = {below = 1, worst = 100}
-local few   = {below = 1, worst = 32}
+local few, fewest = {below = 1, worst = 32}, {below = 1, worst = 8}
 
 -- DEVIATION: a new bad tet has a price (docs/deviations.md). Without one, the worst tet gains a little, mild
 -- bad ones remain, and the next round has more to do. Only the worst tets are worth any number of mild ones.
@@ -43,6 +43,7 @@ local start = quality()
 local is_small = start.tets <= 100000
 
 local first_mean, first_lambda = start.mean_ratio, start.lambda
+local first_radius = is_small and start.radius_ratio or 0
 
 -- Where insertion costs the mean more than the polish at the end gains, only what is round enough is
 -- inserted. A part of the bad tets tells.
@@ -116,17 +117,30 @@ end
 -- Needles count first: they would spoil what is around them. Sines alone count last, so that needles which
 -- the surface forces do not hide them.
 local function rescue_worst()
-  judge_by{price = half_price}
+  local function mend(on)
+    return sweep_worst(on) + smooth{on = on, desperate = 0.7}
+  end
+  -- Mild bad tets buy angles for the worst. Where the walls hold those, they would be spent for nothing: few
+  -- tell, before many pay.
+  local function is_in_vain()
+    begin_round()
+    judge_by{price = 0}
+    local before = quality().q_few
+    mend(fewest)
+    return quality().q_few < before + 0.02
+  end
+  local has_price = not worst_only and is_in_vain()
+  judge_by{price = has_price and full_price or half_price}
   plain_round()
   is_growing = true
   begin_round()
-  judge_by{price = 0}
+  judge_by{price = has_price and full_price or 0}
   for _ = 1, last_sweeps // 2 do
     if is_too_costly() then break end
     hold_if_costly()
-    if sweep_worst(dire) + smooth{on = dire, desperate = 0.7} == 0 then break end
+    if mend(dire) == 0 then break end
   end
-  judge_by{price = 0, measure = "sine"}
+  judge_by{price = has_price and full_price or 0, measure = "sine"}
   for _ = 1, last_sweeps - last_sweeps // 2 do
     if is_too_costly() then break end
     hold_if_costly()
@@ -187,7 +201,8 @@ end
 if is_small then
   even_out{cycles = polish_last, below = 0.8, insert = 0.75, contract = 2, lambda = first_lambda}
   -- The mean of the radius ratios lags behind that of the mean ratios.
-  if polish_last > 0 and quality().mean_ratio < first_mean + 0.01 then
+  if polish_last > 0 and
+     (quality().mean_ratio < first_mean + 0.01 or quality().radius_ratio < first_radius) then
     even_out{cycles = 2 * polish_last, below = 0.9, insert = 0.8, contract = 2, lambda = first_lambda}
   end
 else

@@ -394,6 +394,10 @@ TEST_CASE("what is worse than before is one list: promised figures, then aims") 
   result.before.lambda = 1;
   result.after.lambda = 2;
   CHECK(result.worse_than_before() == std::vector{std::string("a lambda of 2 instead of 1"), aim});
+  // As many digits as tell them apart.
+  result.rulers_after->figures[static_cast<std::size_t>(Ruler::radius_ratio)].mean = 0.699999;
+  CHECK(result.missed_aims() ==
+        std::vector{std::string("a mean radius ratio of 0.699999 instead of 0.7")});
 }
 
 TEST_CASE("a run that ends with a worse figure goes back to the best of its passes, and says so") {
@@ -557,9 +561,15 @@ TEST_CASE("a run that nobody asks for rulers keeps to them, too: its mesh is the
   const Result result = improve(with, options);
   CHECK(result.rulers_after.has_value());
   // Without rulers nobody would see it.
-  CHECK(std::any_of(result.notes.begin(), result.notes.end(), [](const std::string& note) {
-    return note.starts_with("went back") && note.find("a worst mean ratio") != std::string::npos;
-  }));
+  const auto told =
+      std::find_if(result.notes.begin(), result.notes.end(),
+                   [](const std::string& note) { return note.starts_with("went back"); });
+  REQUIRE(told != result.notes.end());
+  CHECK(told->find("a worst mean ratio") != std::string::npos);
+  // Nor does all go: half as many passes as left the fewest bad tets break no bound.
+  CHECK_FALSE(told->starts_with("went back to the state after pass 0 "));
+  CHECK_FALSE(result.passes.empty());
+  CHECK(result.after.n_bad < result.before.n_bad);
   options.rulers = false;
   CHECK_FALSE(improve(without, options).rulers_after.has_value());
   CHECK(equal(with, without));
