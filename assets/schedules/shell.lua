@@ -122,14 +122,17 @@ local function rescue_worst()
   end
   -- Mild bad tets buy angles for the worst. Where the walls hold those, they would be spent for nothing: few
   -- tell, before many pay.
-  local function is_in_vain()
-    begin_round()
-    judge_by{price = 0}
+  local function is_in_vain(on)
     local before = quality().q_few
-    mend(fewest)
+    mend(on)
     return quality().q_few < before + 0.02
   end
-  local has_price = not worst_only and is_in_vain()
+  local has_price = false
+  if not worst_only then
+    begin_round()
+    judge_by{price = 0}
+    has_price = is_in_vain(fewest) or is_in_vain(few)
+  end
   judge_by{price = has_price and full_price or half_price}
   plain_round()
   is_growing = true
