@@ -43,12 +43,13 @@ enum Keyword : std::int32_t {
 };
 
 // Volume elements that the library cannot use, linear and of higher order.
-constexpr std::array<std::int32_t, 12> kForeignVolumes = {33, 46, 86,  87,  96,  97,
-                                                          98, 99, 100, 101, 102, 103};
+constexpr std::array<std::int32_t, 12> kForeignVolumeCodes = {33, 46, 86,  87,  96,  97,
+                                                              98, 99, 100, 101, 102, 103};
 
-class Reader {
+class MeditBinaryReader {
  public:
-  Reader(const InputFile& file, TetPlace* question) : bytes_(file), question_(question) {}
+  MeditBinaryReader(const InputFile& file, TetPlace* question)
+      : bytes_(file), question_(question) {}
 
   MeshData read() {
     read_header();
@@ -132,8 +133,8 @@ class Reader {
     read_dimension();
     for (const Section& section : sections_) {
       const auto keyword = section.keyword;
-      if (std::find(kForeignVolumes.begin(), kForeignVolumes.end(), keyword) !=
-          kForeignVolumes.end()) {
+      if (std::find(kForeignVolumeCodes.begin(), kForeignVolumeCodes.end(), keyword) !=
+          kForeignVolumeCodes.end()) {
         bytes_.seek(section.begin);
         if (bytes_.number<Integer>("a count") > 0) {
           bytes_.fail_at(section.begin,
@@ -384,9 +385,9 @@ class Reader {
   MeshData mesh_;
 };
 
-class Writer {
+class MeditBinaryWriter {
  public:
-  Writer(OutputFile& out, const MeshView& mesh) : out_(out), mesh_(mesh) {}
+  MeditBinaryWriter(OutputFile& out, const MeshView& mesh) : out_(out), mesh_(mesh) {}
 
   void write() {
     version_ = 4;
@@ -549,12 +550,12 @@ bool looks_like_medit_binary(std::string_view bytes) {
 
 MeshData read_medit_binary(const std::filesystem::path& file, TetPlace* question) {
   const InputFile input(file);
-  return Reader(input, question).read();
+  return MeditBinaryReader(input, question).read();
 }
 
 void write_medit_binary(const std::filesystem::path& file, const MeshView& mesh) {
   OutputFile out(file);
-  Writer(out, mesh).write();
+  MeditBinaryWriter(out, mesh).write();
   out.commit(mesh.companions());
 }
 

@@ -21,7 +21,7 @@ DECLARED = re.compile(
     r"^(?:template <[^;{]*> *)?(?:(?:struct|class|enum(?: class)?|union|concept) (?P<type>\w+)"
     r"|using (?P<alias>\w+) ="
     r"|(?:namespace) (?P<space>\w+) ="
-    r"|(?:[\w:<>,&*\[\]\" ]|\([^()]*\))*?[\w>&*\]] ?[&*]*(?P<name>\w+)(?= ?(?:\(|\{|=|\[|;)))")
+    r"|(?:[\w:<>,&*\[\]\" ]|\([^()]*\))*?[\w>&*\]] ?[&*]*\b(?P<name>\w+)(?= ?(?:\(|\{|=|\[|;)))")
 
 
 def own_names(text):
