@@ -49,13 +49,6 @@ bool read_value(std::ifstream& in, Value& value) {
   return static_cast<bool>(in);
 }
 
-template <class Integer>
-Integer load(const char* at) {
-  Integer value;
-  std::memcpy(&value, at, sizeof(value));
-  return value;
-}
-
 }  // namespace
 
 std::unique_ptr<FileSlices> MeditSlices::open(const std::filesystem::path& file, Ranks& ranks) {

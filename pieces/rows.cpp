@@ -24,13 +24,6 @@ auto with_type(const DataArray& array, const Act& act) {
 }
 
 template <class Value>
-Value load(const char* at) {
-  Value value;
-  std::memcpy(&value, at, sizeof(value));
-  return value;
-}
-
-template <class Value>
 void save(Value value, char* at) {
   std::memcpy(at, &value, sizeof(value));
 }

@@ -30,8 +30,6 @@
 namespace tetmend::formats {
 namespace {
 
-constexpr std::int32_t kNewestVersion = 4;
-
 enum Keyword : std::int32_t {
   dimension = 3,
   vertices = 4,
@@ -80,10 +78,10 @@ class MeditBinaryReader {
     }
     bytes_.set_swap(cookie != 1);
     version_ = bytes_.number<std::int32_t>("the version of the format");
-    if (version_ < 1 || version_ > kNewestVersion) {
+    if (version_ < 1 || version_ > kNewestMeditVersion) {
       bytes_.fail_at(bytes_.position() - sizeof version_,
                      fmt::format("version {} of the format is unknown: expected 1 to {}", version_,
-                                 kNewestVersion));
+                                 kNewestMeditVersion));
     }
   }
 
@@ -545,7 +543,7 @@ bool looks_like_medit_binary(std::string_view bytes) {
   const auto cookie = load<std::int32_t>(bytes.data(), false);
   if (cookie != 1 && cookie != byte_swapped(std::int32_t{1})) return false;
   const auto version = load<std::int32_t>(bytes.data() + sizeof cookie, cookie != 1);
-  return version >= 1 && version <= kNewestVersion;
+  return version >= 1 && version <= kNewestMeditVersion;
 }
 
 MeshData read_medit_binary(const std::filesystem::path& file, TetPlace* question) {
