@@ -33,7 +33,7 @@ inline void put(const std::string& text, std::string& bytes) {
 /// Takes so many bytes off the front. @throws Error when there are fewer.
 /// The value whose bytes are at `at`, which need not be aligned.
 template <class Value>
-Value load(const char* at) {
+Value value_at(const char* at) {
   static_assert(std::is_trivially_copyable_v<Value>);
   Value value;
   std::memcpy(&value, at, sizeof(value));

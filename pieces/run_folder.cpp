@@ -45,9 +45,9 @@ void append_run(const SavedRun& saved, std::string& bytes) {
     put(value, bytes);
   }
   put(saved.division, bytes);
-  append_run(saved.before, bytes);
-  append_run(saved.run, bytes);
-  append_run(saved.mesh, bytes);
+  append(saved.before, bytes);
+  append(saved.run, bytes);
+  append(saved.mesh, bytes);
   put(saved.is_finished, bytes);
 }
 

@@ -26,7 +26,7 @@ constexpr double kTetHeight = 140;
 
 /// Places on the drawing. It lies in the two directions in which the corners spread most, turned a
 /// little, so that a flat tet is not seen as a flat quadrilateral.
-Places project(const Corners& corners) {
+Projection project(const Corners& corners) {
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();
   for (const Eigen::Vector3d& p : corners) centre += p / 4;
   double size = 0;
@@ -51,7 +51,7 @@ Places project(const Corners& corners) {
 }
 
 /// The same within the drawing.
-Places fitted(Projection places) {
+Projection fitted(Projection places) {
   Eigen::Vector2d low = places[0];
   Eigen::Vector2d high = places[0];
   for (const Eigen::Vector2d& p : places) {
