@@ -22,19 +22,19 @@ constexpr float kWide = 5;
 
 /// Distance along the ray to the triangle, or infinity ([moeller_trumbore]).
 double distance_to(const Ray& ray, const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
-  constexpr double kNone = std::numeric_limits<double>::infinity();
+  constexpr double kMiss = std::numeric_limits<double>::infinity();
   const glm::dvec3 u = b - a;
   const glm::dvec3 v = c - a;
   const glm::dvec3 p = glm::cross(ray.direction, v);
   const double det = glm::dot(u, p);
-  if (det == 0) return kNone;
+  if (det == 0) return kMiss;
   const glm::dvec3 s = ray.origin - a;
   const double x = glm::dot(s, p) / det;
   const glm::dvec3 q = glm::cross(s, u);
   const double y = glm::dot(ray.direction, q) / det;
-  if (x < 0 || y < 0 || x + y > 1) return kNone;
+  if (x < 0 || y < 0 || x + y > 1) return kMiss;
   const double t = glm::dot(v, q) / det;
-  return t >= 0 ? t : kNone;
+  return t >= 0 ? t : kMiss;
 }
 
 /// Triangles without a tet are passed over.
