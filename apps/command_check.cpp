@@ -30,7 +30,7 @@
 namespace tetmend::apps {
 namespace {
 
-struct Options {
+struct CheckCommand {
   std::filesystem::path file;
   std::filesystem::path improved;
   std::vector<std::filesystem::path> more;
@@ -61,7 +61,7 @@ std::pair<std::string, double> to_threshold(const std::string& text) {
                   text, fmt::join(names, ", ")));
 }
 
-nlohmann::json to_json(const Fact::Number& number) {
+nlohmann::json json_of(const Fact::Number& number) {
   if (const auto* count = std::get_if<std::uint64_t>(&number)) return *count;
   if (const auto* value = std::get_if<double>(&number)) return *value;
   return nullptr;
@@ -72,14 +72,14 @@ void say_whether(bool holds) {
   say(stdout, holds ? "    " : "  ");
 }
 
-nlohmann::json to_json(const Options& options, const std::vector<Fact>& facts, bool holds) {
+nlohmann::json json_of(const CheckCommand& options, const std::vector<Fact>& facts, bool holds) {
   nlohmann::json list = nlohmann::json::array();
   for (const Fact& fact : facts) {
     list.push_back({{"name", fact.name},
                     {"holds", fact.holds},
                     {"text", fact.text},
-                    {"value", to_json(fact.value)},
-                    {"wanted", to_json(fact.wanted)}});
+                    {"value", json_of(fact.value)},
+                    {"wanted", json_of(fact.wanted)}});
   }
   nlohmann::json result = {
       {"schema", 1}, {"file", options.file.string()}, {"holds", holds}, {"facts", list}};
@@ -87,7 +87,7 @@ nlohmann::json to_json(const Options& options, const std::vector<Fact>& facts, b
   return result;
 }
 
-void print(const Options& options, const std::vector<Fact>& facts, bool holds) {
+void print(const CheckCommand& options, const std::vector<Fact>& facts, bool holds) {
   if (!options.json) {
     for (const Fact& fact : facts) {
       say_whether(fact.holds);
@@ -103,11 +103,11 @@ void print(const Options& options, const std::vector<Fact>& facts, bool holds) {
     }
     return;
   }
-  print_json(to_json(options, facts, holds));
+  print_json(json_of(options, facts, holds));
 }
 
 /// Of parts, groups are not kept: they cannot be compared.
-Mesh load_to_check(const Options& options, const std::filesystem::path& file,
+Mesh load_to_check(const CheckCommand& options, const std::filesystem::path& file,
                    const pieces::ArrayFiles* parts) {
   Mesh mesh = load_whole(file, options.wanted.threads, parts);
   if (!parts->is_one(file)) return mesh;
@@ -118,7 +118,7 @@ Mesh load_to_check(const Options& options, const std::filesystem::path& file,
 }
 
 /// @throws UsageError
-std::vector<Fact> facts_of(Options& options, const pieces::ArrayFiles* parts) {
+std::vector<Fact> facts_of(CheckCommand& options, const pieces::ArrayFiles* parts) {
   CheckOptions& wanted = options.wanted;
   std::vector<Fact> facts;
   Mesh mesh = load_to_check(options, options.file, parts);
@@ -144,9 +144,9 @@ bool all_hold(const std::vector<Fact>& facts) {
 }
 
 /// The name of a mesh, and what does not hold.
-void print_line(const Options& options, const std::vector<Fact>& facts) {
+void print_line(const CheckCommand& options, const std::vector<Fact>& facts) {
   if (options.json) {
-    const nlohmann::json json = to_json(options, facts, all_hold(facts));
+    const nlohmann::json json = json_of(options, facts, all_hold(facts));
     return say(stdout, printable_for("standard output", json).dump() + '\n');
   }
   std::vector<std::string> failed;
@@ -160,7 +160,7 @@ void print_line(const Options& options, const std::vector<Fact>& facts) {
 
 /// A line for each of several meshes, and one for the worst. One that cannot be read is named, and
 /// the others follow; the status is that of the worst.
-int check_each(Options& options, const std::vector<std::filesystem::path>& files,
+int check_each(CheckCommand& options, const std::vector<std::filesystem::path>& files,
                const pieces::ArrayFiles* parts) {
   if (!options.wanted.asks()) {
     throw UsageError("several meshes are checked alike: give a threshold or --for PRESET");
@@ -198,7 +198,7 @@ int check_each(Options& options, const std::vector<std::filesystem::path>& files
   return unread > 0 ? kFailed : failing > 0 ? kGoalMissed : kSuccess;
 }
 
-int run_check(Options& options, const pieces::ArrayFiles* parts) {
+int run_check(CheckCommand& options, const pieces::ArrayFiles* parts) {
   CheckOptions& wanted = options.wanted;
   for (const std::string& text : options.measures) wanted.measure.push_back(to_threshold(text));
   if (options.each || !options.more.empty()) {
@@ -227,7 +227,7 @@ std::string preset_help() {
   return text;
 }
 
-void add_check_options(CLI::App& command, Options& options) {
+void add_check_options(CLI::App& command, CheckCommand& options) {
   command.add_option("FILE", options.file, "Mesh")->required()->type_name("");
   command.add_option("OUT", options.improved, "What became of it: compared with FILE")
       ->type_name("");
@@ -265,7 +265,7 @@ void add_check_options(CLI::App& command, Options& options) {
 }  // namespace
 
 void add_check(CLI::App& app, Invocation& invocation) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<CheckCommand>();
   CLI::App* command = app.add_subcommand("check", "Prove what a mesh, or a result, promises");
   add_check_options(*command, *options);
   command->footer(fmt::format(

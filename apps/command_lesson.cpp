@@ -31,7 +31,7 @@ struct LessonOptions {
   std::string title;
 };
 
-std::string name_of(const std::filesystem::path& lesson) {
+std::string lesson_name(const std::filesystem::path& lesson) {
   return lesson.stem().string();
 }
 
@@ -40,10 +40,10 @@ std::filesystem::path find(const std::string& name,
                            const std::vector<std::filesystem::path>& lessons) {
   if (std::filesystem::path(name).extension() == ".json") return name;
   const auto found = std::find_if(lessons.begin(), lessons.end(),
-                                  [&](const auto& lesson) { return name_of(lesson) == name; });
+                                  [&](const auto& lesson) { return lesson_name(lesson) == name; });
   if (found != lessons.end()) return *found;
   std::vector<std::string> names;
-  for (const auto& lesson : lessons) names.push_back(name_of(lesson));
+  for (const auto& lesson : lessons) names.push_back(lesson_name(lesson));
   throw UsageError(
       fmt::format("there is no lesson '{}'; there are: {}", name, fmt::join(names, ", ")));
 }
@@ -77,7 +77,7 @@ std::string page_of(const Lesson& lesson, const Neighbours& neighbours = {}) {
       .html;
 }
 
-void put(const std::filesystem::path& file, std::string_view text) {
+void write_file(const std::filesystem::path& file, std::string_view text) {
   OutputFile out(file);
   out.put(text);
   out.commit();
@@ -93,7 +93,7 @@ std::vector<NamedFile> files_of(const std::vector<std::filesystem::path>& lesson
 }
 
 std::filesystem::path page_name(const std::filesystem::path& lesson) {
-  return name_of(lesson) + ".html";
+  return lesson_name(lesson) + ".html";
 }
 
 void write_all(const LessonOptions& options, const std::vector<std::filesystem::path>& lessons) {
@@ -113,11 +113,11 @@ void write_all(const LessonOptions& options, const std::vector<std::filesystem::
     Neighbours around{.contents = explain::PageLink{"index.html", title, ""}};
     if (n > 0) around.previous = pages[n - 1];
     if (n + 1 < pages.size()) around.next = pages[n + 1];
-    put(options.output / page_name(lessons[n]), page_of(read_lesson(lessons[n]), around));
+    write_file(options.output / page_name(lessons[n]), page_of(read_lesson(lessons[n]), around));
   }
-  put(options.output / "index.html",
-      explain::write_index(title, "Recorded runs of tetmend, step by step, with questions.", pages,
-                           program()));
+  write_file(options.output / "index.html",
+             explain::write_index(title, "Recorded runs of tetmend, step by step, with questions.",
+                                  pages, program()));
 }
 
 void check_making(const LessonOptions& options) {
@@ -157,7 +157,7 @@ void make_lesson(const LessonOptions& options) {
     throw Error(fmt::format("a lesson lies beside its trace, or above: -o {} does not",
                             printable(options.output.string())));
   }
-  put(options.output, lesson_text(lesson, folder));
+  write_file(options.output, lesson_text(lesson, folder));
 }
 
 int run_lesson(const LessonOptions& options) {
@@ -170,7 +170,7 @@ int run_lesson(const LessonOptions& options) {
   if (lessons.empty()) throw Error("there are no lessons: TETMEND_LESSONS may name their folder");
   if (options.name.empty() && !options.html) {
     for (const auto& path : lessons) {
-      say(stdout, fmt::format("{:<16} {}\n", name_of(path), read_lesson(path).title));
+      say(stdout, fmt::format("{:<16} {}\n", lesson_name(path), read_lesson(path).title));
     }
     return 0;
   }
@@ -198,7 +198,7 @@ int run_lesson(const LessonOptions& options) {
   if (options.output.empty()) {
     say(stdout, text);
   } else {
-    put(options.output, text);
+    write_file(options.output, text);
   }
   return 0;
 }

@@ -21,14 +21,14 @@ namespace tetmend::contract {
 namespace {
 
 /// The tets of a mesh that are not in the other.
-struct Side {
+struct OwnTets {
   std::vector<Quality> qualities;  // ascending
   double largest_angle = 0;        // degrees
   double mean_ratios = 0;          // sum
 };
 
-Side describe(const TetMesh& mesh, const std::vector<NamedTet>& changed) {
-  Side side;
+OwnTets describe(const TetMesh& mesh, const std::vector<NamedTet>& changed) {
+  OwnTets side;
   for (const auto& [v, quality] : changed) {
     side.qualities.push_back(quality);
     const double size = std::abs(
@@ -43,12 +43,12 @@ Side describe(const TetMesh& mesh, const std::vector<NamedTet>& changed) {
   return side;
 }
 
-std::ptrdiff_t count_bad(const Side& side) {
+std::ptrdiff_t count_bad(const OwnTets& side) {
   return std::count_if(side.qualities.begin(), side.qualities.end(),
                        [](Quality q) { return q < kBadThreshold; });
 }
 
-double sum_of_lacks(const Side& side, double exponent) {
+double sum_of_lacks(const OwnTets& side, double exponent) {
   double sum = 0;
   for (const Quality q : side.qualities) {
     sum += q < kBadThreshold ? std::pow(double{kBadThreshold} - double{q}, exponent) : 0;
@@ -56,7 +56,7 @@ double sum_of_lacks(const Side& side, double exponent) {
   return sum;
 }
 
-bool is_better(const Side& now, const Side& before) {
+bool is_better(const OwnTets& now, const OwnTets& before) {
   const auto is_less = [](Quality a, Quality b) { return a < b; };
   // The shorter is better where one continues the other.
   const auto [b, n] = std::mismatch(before.qualities.begin(), before.qualities.end(),
@@ -69,10 +69,10 @@ bool is_better(const Side& now, const Side& before) {
 struct Case {
   std::string name;
   Judge judge;
-  std::function<bool(const Side& before, const Side& now)> holds;
+  std::function<bool(const OwnTets& before, const OwnTets& now)> holds;
 };
 
-bool is_fair(const Side& before, const Side& now, const Fairness& fairness) {
+bool is_fair(const OwnTets& before, const OwnTets& now, const Fairness& fairness) {
   if (!is_better(now, before)) return false;
   constexpr double kRounding = 1e-9;
   const double more_lack =
@@ -85,7 +85,7 @@ bool is_fair(const Side& before, const Side& now, const Fairness& fairness) {
 }
 
 /// No bad tet is new or worse.
-bool spares_bad(const Side& before, const Side& now) {
+bool spares_bad(const OwnTets& before, const OwnTets& now) {
   const auto bad = static_cast<std::size_t>(count_bad(before));
   if (count_bad(now) > count_bad(before)) return false;
   for (std::size_t i = 0; i < std::min(bad, now.qualities.size()); ++i) {
@@ -105,7 +105,7 @@ Case lowers_angle(const TetMesh& mesh, TetHandle t) {
       dihedral_angles(mesh.point(v[0]), mesh.point(v[1]), mesh.point(v[2]), mesh.point(v[3]));
   const double sine = quality_of_largest(standard, *std::max_element(angles.begin(), angles.end()));
   return {"lowers_angle", Judge::lowers_angle(sine),
-          [sine, standard](const Side& before, const Side& now) {
+          [sine, standard](const OwnTets& before, const OwnTets& now) {
             if (now.qualities.empty() || now.qualities[0] < before.qualities[0]) return false;
             const std::ptrdiff_t more_bad = count_bad(now) - count_bad(before);
             const double price =
@@ -119,20 +119,22 @@ std::vector<Case> cases(const TetMesh& mesh, TetHandle t) {
   constexpr Fairness kThrifty = {.price = 0.02, .more_bad = false};
   constexpr double kShare = 0.3;
   std::vector<Case> all = {
-      {"strict", Judge::strict(), [](const Side& b, const Side& n) { return is_better(n, b); }},
-      {"fair", Judge::fair({}), [](const Side& b, const Side& n) { return is_fair(b, n, {}); }},
+      {"strict", Judge::strict(),
+       [](const OwnTets& b, const OwnTets& n) { return is_better(n, b); }},
+      {"fair", Judge::fair({}),
+       [](const OwnTets& b, const OwnTets& n) { return is_fair(b, n, {}); }},
       {"fair, exponent 12", Judge::fair(kMild),
-       [=](const Side& b, const Side& n) { return is_fair(b, n, kMild); }},
+       [=](const OwnTets& b, const OwnTets& n) { return is_fair(b, n, kMild); }},
       {"fair, no more bad tets", Judge::fair(kThrifty),
-       [=](const Side& b, const Side& n) { return is_fair(b, n, kThrifty); }},
+       [=](const OwnTets& b, const OwnTets& n) { return is_fair(b, n, kThrifty); }},
       {"reaches", Judge::reaches(1.2f),
-       [](const Side& b, const Side& n) { return is_better(n, b) || spares_bad(b, n); }},
-      {"opening", Judge::opening(kShare), [=](const Side& b, const Side& n) {
+       [](const OwnTets& b, const OwnTets& n) { return is_better(n, b) || spares_bad(b, n); }},
+      {"opening", Judge::opening(kShare), [=](const OwnTets& b, const OwnTets& n) {
          return n.qualities.empty() ||
                 n.qualities[0] >= kShare * std::max(0.f, b.qualities[0]) - 2 * kQualityTolerance;
        }}};
-  all.push_back({"untangles", Judge::untangles(), [](const Side& b, const Side& n) {
-                   const auto count_not_positive = [](const Side& side) {
+  all.push_back({"untangles", Judge::untangles(), [](const OwnTets& b, const OwnTets& n) {
+                   const auto count_not_positive = [](const OwnTets& side) {
                      return std::count_if(side.qualities.begin(), side.qualities.end(),
                                           [](Quality q) { return q <= 0; });
                    };
@@ -142,8 +144,8 @@ std::vector<Case> cases(const TetMesh& mesh, TetHandle t) {
   all.push_back(lowers_angle(mesh, t));
   for (const double usual : {0.0, 0.7}) {
     all.push_back({fmt::format("raises_mean, usual {}", usual), Judge::raises_mean(usual),
-                   [usual](const Side& b, const Side& n) {
-                     const auto sum = [usual](const Side& side) {
+                   [usual](const OwnTets& b, const OwnTets& n) {
+                     const auto sum = [usual](const OwnTets& side) {
                        return side.mean_ratios - usual * static_cast<double>(side.qualities.size());
                      };
                      return sum(n) > sum(b) && spares_bad(b, n);

@@ -17,8 +17,6 @@ Point normal_of(const std::array<Point, 3>& points, unsigned corners, double thi
   return area > thin * longest ? Point(n / area) : Point::Zero();
 }
 
-namespace {
-
 Point nearest_on_segment(const Point& a, const Point& b, const Point& p) {
   const Point d = b - a;
   const double length2 = d.squaredNorm();
@@ -26,8 +24,6 @@ Point nearest_on_segment(const Point& a, const Point& b, const Point& p) {
   if (!(t > 0)) return a;
   return t >= length2 ? b : Point(a + t / length2 * d);
 }
-
-}  // namespace
 
 /// [ericson_collision, 5.1.5]: the region of the plane that p lies over decides. Signs of areas come
 /// from cross products: products of its dot products cancel in needles.

@@ -28,6 +28,8 @@ struct Element {
 /// Normal or direction; zero where the least height is under `thin`.
 Point normal_of(const std::array<Point, 3>& points, unsigned corners, double thin);
 
+/// The point between a and b that is nearest to p.
+Point nearest_on_segment(const Point& a, const Point& b, const Point& p);
 /// The point of the element that is nearest to p.
 Point nearest_point(const std::array<Point, 3>& points, unsigned corners, const Point& p);
 inline Point nearest_point(const Element& element, const Point& p) {

@@ -19,10 +19,6 @@ double mean_edge(const Element& element) {
   return ((p[1] - p[0]).norm() + (p[2] - p[1]).norm() + (p[0] - p[2]).norm()) / 3;
 }
 
-Point nearest_on_segment(const Point& a, const Point& b, const Point& p) {
-  return nearest_point({a, b, b}, 2, p);
-}
-
 /// The shortest way from triangle a to triangle b, of those that end in a corner of one or lead
 /// between two sides: of disjoint triangles one of these is the shortest.
 Point shortest_way(const Element& a, const Element& b) {

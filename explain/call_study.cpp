@@ -301,12 +301,6 @@ class Study {
   std::vector<TetVertices> tets_before_, tets_now_;
 };
 
-Quality worst_of(const std::vector<LocalTet>& tets) {
-  Quality worst = std::numeric_limits<Quality>::infinity();
-  for (const LocalTet& tet : tets) worst = std::min(worst, tet.quality);
-  return worst;
-}
-
 /// What the search had to offer at best.
 std::string explain_search(const ShellPicture& s) {
   if (s.pockets.empty()) return "";
@@ -355,6 +349,12 @@ std::string caption_of(const CallStudy& study, const PolygonView& view) {
 }
 
 }  // namespace
+
+Quality worst_of(const std::vector<LocalTet>& tets) {
+  Quality worst = std::numeric_limits<Quality>::infinity();
+  for (const LocalTet& tet : tets) worst = std::min(worst, tet.quality);
+  return worst;
+}
 
 PolygonView polygon_at(const CallStudy& study, std::uint64_t position, bool refused) {
   const ShellPicture& old = *study.picture;

@@ -22,6 +22,9 @@ struct LocalTet {
   Quality quality = 0;
 };
 
+/// Of their qualities; infinite if there are none.
+Quality worst_of(const std::vector<LocalTet>& tets);
+
 /// What the drawing of a polygon shows.
 enum class PolygonStage {
   before,              ///< the old tets, and the chords that the search may use

@@ -12,8 +12,6 @@
 
 namespace tetmend::explain {
 
-using Json = nlohmann::ordered_json;
-
 namespace {
 
 Json origin_of(const TraceFile& file, const PageRequest& request) {
@@ -32,7 +30,7 @@ Json origin_of(const TraceFile& file, const PageRequest& request) {
 }
 
 /// With the answers to its questions, as the trace has them.
-Json to_json(const TraceFile& file, Replay& replay, const Lesson& lesson) {
+Json lesson_json(const TraceFile& file, Replay& replay, const Lesson& lesson) {
   Json steps = Json::array();
   for (const LessonStep& step : lesson.steps) {
     Json focus = Json::array();
@@ -65,7 +63,7 @@ std::string html_of(const TraceFile& file, Replay& replay, const PageRequest& re
                     const RecordingRange& range) {
   Json data = record(file, replay, range);
   data["origin"] = origin_of(file, request);
-  if (request.lesson != nullptr) data["lesson"] = to_json(file, replay, *request.lesson);
+  if (request.lesson != nullptr) data["lesson"] = lesson_json(file, replay, *request.lesson);
   if (range.deepest < depth_of(file, range)) data["deepest"] = range.deepest;
   const std::string about =
       fmt::format("{}: a run of {} on {}, schedule {}, step by step.", request.title,

@@ -23,8 +23,6 @@
 
 namespace tetmend::explain {
 
-using Json = nlohmann::ordered_json;
-
 namespace {
 
 /// As many digits as tell a float from its neighbours, and no more. Infinity is null.

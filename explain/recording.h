@@ -13,6 +13,9 @@
 
 namespace tetmend::explain {
 
+/// Its members stay in the order in which they were put in.
+using Json = nlohmann::ordered_json;
+
 /// What a page is to have.
 struct RecordingRange {
   std::uint64_t begin = 0, end = 0;  ///< positions, both included
@@ -32,6 +35,6 @@ std::size_t count_calls(const TraceFile& file, const RecordingRange& range);
 /// Points and tets are listed once and named by their numbers; a step has the tets that come and go.
 /// A point moved is another point of the same vertex. Coordinates are relative to the box of all.
 /// assets/page/recording reads this. Leaves the replay where it was. Cost: a study of each call.
-nlohmann::ordered_json record(const TraceFile& file, Replay& replay, const RecordingRange& range);
+Json record(const TraceFile& file, Replay& replay, const RecordingRange& range);
 
 }  // namespace tetmend::explain

@@ -14,7 +14,7 @@ namespace tetmend::explain {
 
 namespace {
 
-constexpr Quality kBest = std::numeric_limits<Quality>::infinity();
+constexpr Quality kWorstOfNone = std::numeric_limits<Quality>::infinity();
 
 double quality(const SlotMesh& mesh, const TetVertices& tet) {
   return standard_of_drawings(mesh).quality(mesh.point(tet[0]), mesh.point(tet[1]),
@@ -59,7 +59,7 @@ void search_pockets(const SlotMesh& mesh, std::span<const Quality> old_sides, Sh
   const auto search = std::make_unique<CoveringSearch>();
   Covering full;
   if (search->run(problem, full)) {
-    s.full.worst = kBest;
+    s.full.worst = kWorstOfNone;
     for (const auto& [i, k, j] : std::span(full.triangles).first(full.triangle_count)) {
       add_triangle(mesh, s, i, k, j, s.full);
     }
@@ -122,7 +122,7 @@ std::string locks_text(const ShellPicture& picture) {
 FlatCovering covering_of(const SlotMesh& mesh, const ShellPicture& picture,
                          std::span<const TetVertices> tets) {
   FlatCovering covering;
-  covering.worst = kBest;
+  covering.worst = kWorstOfNone;
   std::vector<NamedTet> core;
   const auto m = static_cast<unsigned>(picture.ring.size());
   for (const TetVertices& tet : tets) {
@@ -177,7 +177,7 @@ ShellPicture picture_of_sandwich(const SlotMesh& mesh, VertexHandle a, VertexHan
   s.b = b;
   s.ring = circle_around(triangles);
   if (s.ring.size() < 3) return s;
-  s.before.worst = kBest;
+  s.before.worst = kWorstOfNone;
   for (const auto& [p, q, r] : triangles) {
     add_triangle(mesh, s, place_in(s.ring, p), place_in(s.ring, q), place_in(s.ring, r), s.before);
   }

@@ -9,7 +9,8 @@ namespace tetmend::explain {
 namespace {
 
 /// Goes from vertex to vertex as long as there is a next one.
-std::vector<VertexHandle> follow(std::map<VertexHandle, VertexHandle> next, VertexHandle start) {
+std::vector<VertexHandle> follow_chain(std::map<VertexHandle, VertexHandle> next,
+                                       VertexHandle start) {
   std::vector<VertexHandle> chain = {start};
   for (auto step = next.find(start); step != next.end(); step = next.find(chain.back())) {
     const VertexHandle to = step->second;
@@ -72,7 +73,7 @@ SlotShell order_shell(std::span<const NamedTet> tets, VertexHandle a, VertexHand
   const auto start = std::find_if(next.begin(), next.end(),
                                   [&](const auto& step) { return !arrivals.contains(step.first); });
   shell.closed = start == next.end();
-  shell.ring = follow(next, shell.closed ? next.begin()->first : start->first);
+  shell.ring = follow_chain(next, shell.closed ? next.begin()->first : start->first);
   for (const VertexHandle p : shell.ring) {
     if (const auto tet = tet_after.find(p); tet != tet_after.end()) {
       shell.tets.push_back(tet->second);
@@ -111,7 +112,7 @@ std::vector<VertexHandle> circle_around(std::span<const std::array<VertexHandle,
     }
   }
   if (next.empty()) return {};
-  std::vector<VertexHandle> circle = follow(next, next.begin()->first);
+  std::vector<VertexHandle> circle = follow_chain(next, next.begin()->first);
   return circle.size() == sides ? circle : std::vector<VertexHandle>();
 }
 

@@ -40,7 +40,7 @@ constexpr std::string_view kNearest = "of the nearest old vertex";
 constexpr std::string_view kConserved = "mean of the old tets by shared volume";
 constexpr std::string_view kCentroid = "of the old tet at the centroid";
 
-double volume(const MeshData& data, const MeshData::Tet& tet) {
+double volume_of_tet(const MeshData& data, const MeshData::Tet& tet) {
   const auto& v = tet.vertices;
   return std::abs(
              volume6(data.points[v[0]], data.points[v[1]], data.points[v[2]], data.points[v[3]])) /
@@ -168,7 +168,7 @@ std::vector<std::vector<Integral>> integrals_of(const MeshData& data) {
   for (std::size_t begin = 0; begin < data.tets.size() && !all.empty(); begin += kTetsAtOnce) {
     volumes.clear();
     const std::size_t end = std::min(begin + kTetsAtOnce, data.tets.size());
-    for (std::size_t t = begin; t < end; ++t) volumes.push_back(volume(data, data.tets[t]));
+    for (std::size_t t = begin; t < end; ++t) volumes.push_back(volume_of_tet(data, data.tets[t]));
     for (std::size_t i = 0; i < all.size(); ++i) {
       const bool is_of_points = i < data.point_data.size();
       const DataArray& array =

@@ -9,7 +9,7 @@ namespace tetmend {
 
 namespace {
 
-OperatorDescription::Parameter describe(const ParameterSpec& spec) {
+OperatorDescription::Parameter describe_parameter(const ParameterSpec& spec) {
   using Kind = OperatorDescription::Parameter::Kind;
   OperatorDescription::Parameter parameter;
   parameter.name = spec.name;
@@ -51,7 +51,7 @@ std::vector<OperatorDescription> operators(const std::vector<std::filesystem::pa
     description.help = info->help;
     description.plugin = registry.origin(info->name);
     for (const ParameterSpec& spec : info->parameters) {
-      description.parameters.push_back(describe(spec));
+      description.parameters.push_back(describe_parameter(spec));
     }
     all.push_back(std::move(description));
   }

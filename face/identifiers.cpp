@@ -65,7 +65,7 @@ bool are_whole_and_different(std::span<const Value> values) {
   return std::adjacent_find(numbers.begin(), numbers.end()) == numbers.end();
 }
 
-std::vector<std::int64_t> numbers_of(const DataArray& array) {
+std::vector<std::int64_t> identifiers_in(const DataArray& array) {
   std::vector<std::int64_t> numbers;
   std::visit(
       [&](const auto& values) {
@@ -81,7 +81,7 @@ std::vector<std::int64_t> numbers_of(const DataArray& array) {
 std::int64_t largest_of(const std::vector<const DataArray*>& arrays) {
   std::int64_t most = 0;
   for (const DataArray* array : arrays) {
-    for (const std::int64_t number : numbers_of(*array)) most = std::max(most, number);
+    for (const std::int64_t number : identifiers_in(*array)) most = std::max(most, number);
   }
   return most;
 }
@@ -116,7 +116,8 @@ NewIdentifiers::NewIdentifiers(std::vector<const DataArray*> arrays)
       numbers_(largest_of(arrays_), std::array{limit_of(arrays_)}, [this] {
         std::vector<NumberRange> taken;
         for (const DataArray* array : arrays_) {
-          for (const std::int64_t number : numbers_of(*array)) taken.emplace_back(number, number);
+          for (const std::int64_t number : identifiers_in(*array))
+            taken.emplace_back(number, number);
         }
         return taken;
       }) {}

@@ -24,7 +24,7 @@ struct Row {
 
 /// The whole text as a number from `low` to `high`.
 template <class Number>
-Number read_number(std::string_view text, Number low, Number high, std::string_view what) {
+Number read_in_range(std::string_view text, Number low, Number high, std::string_view what) {
   Number number{};
   const auto [end, error] = from_chars(text.data(), text.data() + text.size(), number);
   const bool is_number = error == std::errc() && end == text.data() + text.size();
@@ -121,7 +121,7 @@ constexpr Row kRows[] = {
       .help = "Stop improving after that time and write what was reached",
       .group = OptionGroup::usual},
      [](Options& o, std::string_view text) {
-       o.time_limit = read_number(text, 1e-3, 1e9, "a number of seconds");
+       o.time_limit = read_in_range(text, 1e-3, 1e9, "a number of seconds");
      }},
     {{.name = "threads",
       .value = "N",
@@ -130,7 +130,7 @@ constexpr Row kRows[] = {
       .group = OptionGroup::usual,
       .letter = 'j'},
      [](Options& o, std::string_view text) {
-       o.threads = read_number(text, 1, 1024, "a whole number");
+       o.threads = read_in_range(text, 1, 1024, "a whole number");
      }},
     {{.name = "surface",
       .value = "fixed|flat|P%|LENGTH",
@@ -148,7 +148,7 @@ constexpr Row kRows[] = {
       .needs = "surface",
       .group = OptionGroup::change},
      [](Options& o, std::string_view text) {
-       o.feature_angle = read_number(text, 0.1, 180.0, "an angle in degrees");
+       o.feature_angle = read_in_range(text, 0.1, 180.0, "an angle in degrees");
      }},
     {{.name = "tets",
       .value = "P%|N",
@@ -170,21 +170,21 @@ constexpr Row kRows[] = {
       .initial = "1.3",
       .group = OptionGroup::change},
      [](Options& o, std::string_view text) {
-       o.gradation = read_number(text, 0.0, 1e9, "a ratio");
+       o.gradation = read_in_range(text, 0.0, 1e9, "a ratio");
      }},
     {{.name = "smallest",
       .value = "LENGTH",
       .help = "No length is wanted below that",
       .group = OptionGroup::change},
      [](Options& o, std::string_view text) {
-       o.smallest = read_number(text, 0.0, 1e300, "a length");
+       o.smallest = read_in_range(text, 0.0, 1e300, "a length");
      }},
     {{.name = "largest",
       .value = "LENGTH",
       .help = "No length is wanted above that",
       .group = OptionGroup::change},
      [](Options& o, std::string_view text) {
-       o.largest = read_number(text, 0.0, 1e300, "a length");
+       o.largest = read_in_range(text, 0.0, 1e300, "a length");
      }},
     {{.name = "layers",
       .value = "keep|improve",
@@ -272,7 +272,7 @@ constexpr Row kRows[] = {
       .needs = "trace",
       .group = OptionGroup::record},
      [](Options& o, std::string_view text) {
-       o.trace_depth = read_number(text, 0, 1000, "a whole number");
+       o.trace_depth = read_in_range(text, 0, 1000, "a whole number");
      }},
     {{.name = "trace-limit",
       .value = "SIZE",

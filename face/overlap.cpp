@@ -11,11 +11,11 @@ namespace tetmend::face {
 
 namespace {
 
-using Corners = std::array<Point, 4>;
+using TetPoints = std::array<Point, 4>;
 
 /// Appends the tets that make up the part of `tet` where `height` is positive. `height` has the
 /// heights of its vertices.
-void cut(const Corners& tet, const std::array<double, 4>& height, std::vector<Corners>& parts) {
+void cut(const TetPoints& tet, const std::array<double, 4>& height, std::vector<TetPoints>& parts) {
   std::array<std::size_t, 4> order{};  // first those above
   std::size_t above = 0;
   for (std::size_t i = 0; i < 4; ++i) {
@@ -54,21 +54,21 @@ void cut(const Corners& tet, const std::array<double, 4>& height, std::vector<Co
   parts.push_back({one[0], other[0], other[1], other[2]});
 }
 
-double volume(const Corners& t) {
+double volume(const TetPoints& t) {
   return std::abs(volume6(t[0], t[1], t[2], t[3])) / 6;
 }
 
 }  // namespace
 
 double overlap(const std::array<Point, 4>& a, const std::array<Point, 4>& b) {
-  std::vector<Corners> parts = {a};
-  std::vector<Corners> left;
+  std::vector<TetPoints> parts = {a};
+  std::vector<TetPoints> left;
   for (std::size_t k = 0; k < 4 && !parts.empty(); ++k) {
     const Point& p = b[(k + 1) % 4];
     Point normal = (b[(k + 2) % 4] - p).cross(b[(k + 3) % 4] - p);
     if (normal.dot(b[k] - p) < 0) normal = -normal;  // towards the vertex opposite
     left.clear();
-    for (const Corners& part : parts) {
+    for (const TetPoints& part : parts) {
       std::array<double, 4> height{};
       for (std::size_t i = 0; i < 4; ++i) height[i] = normal.dot(part[i] - p);
       cut(part, height, left);
@@ -76,7 +76,7 @@ double overlap(const std::array<Point, 4>& a, const std::array<Point, 4>& b) {
     std::swap(parts, left);
   }
   double sum = 0;
-  for (const Corners& part : parts) sum += volume(part);
+  for (const TetPoints& part : parts) sum += volume(part);
   return sum;
 }
 

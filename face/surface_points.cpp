@@ -17,11 +17,11 @@ namespace tetmend::face {
 
 namespace {
 
-using Corners = std::array<std::uint32_t, 3>;
+using TriangleCorners = std::array<std::uint32_t, 3>;
 
 /// A face, with a tet that has it on one of its sides.
 struct SurfaceFace {
-  Corners vertices;
+  TriangleCorners vertices;
   std::uint32_t tet = 0;
 };
 

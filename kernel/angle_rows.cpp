@@ -26,10 +26,6 @@ TETMEND_WIDE_INLINE WideVector key_at(const WideVector& cosine, const WideVector
   return scale > 0.0 ? (key > -1.0 ? key : -one) : one;
 }
 
-TETMEND_WIDE_INLINE WideVector larger(const WideVector& p, const WideVector& q) {
-  return p < q ? q : p;
-}
-
 }  // namespace
 
 double angle_key(double degrees) {

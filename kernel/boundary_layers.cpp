@@ -21,8 +21,8 @@ namespace tetmend {
 namespace {
 
 // Heights in mean edges of the triangle below.
-constexpr double kFlat = 0.25;      // at most, of the first prism
-constexpr double kIsotropic = 1.0;  // at most, of all others
+constexpr double kFlatPrism = 0.25;  // at most, of the first prism
+constexpr double kIsotropic = 1.0;   // at most, of all others
 // Of a line, from prism to prism. Generators thin layers out in narrow places.
 constexpr double kLeastGrowth = 0.7;
 constexpr double kMostGrowth = 2.5;
@@ -42,14 +42,14 @@ constexpr std::size_t kLeastColumns = 8;
 constexpr std::size_t kLeastPrisms = 32;
 
 /// From a vertex up to the next one of its line.
-struct Step {
+struct LineStep {
   VertexHandle from;
   VertexHandle to;
-  friend auto operator<=>(const Step&, const Step&) = default;
+  friend auto operator<=>(const LineStep&, const LineStep&) = default;
 };
 
 struct Prism {
-  std::array<Step, 3> steps;
+  std::array<LineStep, 3> steps;
   double height = 0;  // mean
 };
 
@@ -99,7 +99,7 @@ class Climber {
   }
 
   Column climb() {
-    for (double most = kFlat; climb_prism(most); most = kIsotropic) {
+    for (double most = kFlatPrism; climb_prism(most); most = kIsotropic) {
     }
     if (!column_.prisms.empty() && !front_.is_outside()) {
       column_.above = (mesh_.point(front_.apex()) - front_.point(0)).dot(front_.normal());
@@ -230,13 +230,13 @@ class Lines {
     for (const Column& column : columns) {
       for (const VertexHandle v : column.base) ++at_[v.index()].standing;
       for (const Prism& prism : column.prisms) {
-        for (const Step& step : prism.steps) add(step);
+        for (const LineStep& step : prism.steps) add(step);
       }
     }
     std::sort(others_.begin(), others_.end());
   }
   /// How many columns take the step.
-  std::size_t count(const Step& step) const {
+  std::size_t count(const LineStep& step) const {
     const Vertex& at = at_[step.from.index()];
     if (at.next == step.to) return at.taken;
     if (others_.empty()) return 0;
@@ -247,7 +247,7 @@ class Lines {
   std::size_t standing(VertexHandle v) const { return at_[v.index()].standing; }
 
  private:
-  void add(const Step& step) {
+  void add(const LineStep& step) {
     Vertex& at = at_[step.from.index()];
     if (!at.next.is_valid()) at.next = step.to;
     if (at.next == step.to) {
@@ -263,7 +263,7 @@ class Lines {
     std::uint32_t standing = 0;
   };
   std::vector<Vertex> at_;
-  std::vector<Step> others_;  // to other vertices, sorted, each as often as it is taken
+  std::vector<LineStep> others_;  // to other vertices, sorted, each as often as it is taken
 };
 
 /// The prisms of a column from the wall on whose steps enough columns take: of those on the same
@@ -300,8 +300,8 @@ class Patches {
   explicit Patches(const std::vector<Column>& columns) : parent_(columns.size()) {
     std::iota(parent_.begin(), parent_.end(), 0u);
     struct Side {
-      Step low;
-      Step high;
+      LineStep low;
+      LineStep high;
       std::uint32_t column = 0;
       auto operator<=>(const Side&) const = default;
     };

@@ -13,17 +13,13 @@
 #include <fmt/format.h>
 
 #include "kernel/exact_orientation.h"
+#include "kernel/in_order.h"
 
 namespace tetmend {
 
 namespace {
 
 using Face = std::array<VertexHandle, 3>;
-
-Face sorted(Face face) {
-  std::sort(face.begin(), face.end());
-  return face;
-}
 
 /// Same three vertices in the opposite cyclic order.
 bool is_reverse(const Face& a, const Face& b) {
@@ -144,7 +140,7 @@ void Checker::check_neighbours(TetHandle t) {
     if (!sound_[u.index()]) continue;
     const Face here = mesh_.vertices(face);
     const Face there = mesh_.vertices(twin);
-    if (sorted(here) != sorted(there)) {
+    if (in_order(here) != in_order(there)) {
       report(Finding::Kind::adjacency, t, {},
              "face {} and face {} of neighbour {} have other vertices", f, twin.face(), u.index());
     } else if (!is_reverse(here, there)) {
@@ -184,7 +180,7 @@ void Checker::check_triangles() {
       report(Finding::Kind::boundary, {}, v, "not in the mesh, but in surface triangle {}", k);
     }
     if (!triangles[k].interior || triangles[k].loose) continue;
-    interior_.push_back(sorted(triangles[k].vertices));
+    interior_.push_back(in_order(triangles[k].vertices));
   }
   std::sort(interior_.begin(), interior_.end());
   if (std::adjacent_find(interior_.begin(), interior_.end()) != interior_.end()) {
@@ -226,7 +222,7 @@ void Checker::check_boundary_face(HalfFace face, std::uint32_t k) {
     report(Finding::Kind::boundary, t, {}, "face {} names surface triangle {}, which is {}",
            face.face(), k, triangles[k].interior ? "interior" : "loose");
   }
-  if (sorted(mesh_.vertices(face)) != sorted(triangles[k].vertices)) {
+  if (in_order(mesh_.vertices(face)) != in_order(triangles[k].vertices)) {
     report(Finding::Kind::boundary, t, {}, "face {} and surface triangle {} have other vertices",
            face.face(), k);
   }
@@ -239,7 +235,7 @@ void Checker::match_constraints() {
     if (!mesh_.has_constraints(t)) return;
     for (unsigned f = 0; f < 4; ++f) {
       if (!mesh_.is_constrained(HalfFace(t, f))) continue;
-      const Face face = sorted(mesh_.vertices(HalfFace(t, f)));
+      const Face face = in_order(mesh_.vertices(HalfFace(t, f)));
       const auto found = std::lower_bound(interior_.begin(), interior_.end(), face);
       if (found == interior_.end() || *found != face) {
         report(Finding::Kind::constraint, t, {},

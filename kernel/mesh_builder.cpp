@@ -27,6 +27,7 @@
 #include "kernel/edge_tets.h"
 #include "kernel/grouping.h"
 #include "kernel/hilbert.h"
+#include "kernel/make_room.h"
 #include "kernel/tet_batch.h"
 
 namespace tetmend {
@@ -39,12 +40,6 @@ template <class T>
 void resize_with_room(std::vector<T>& values, std::size_t size) {
   values.reserve(size + size / 4);
   values.resize(size);
-}
-
-/// Assigning an empty list would keep the memory.
-template <class T>
-void release(std::vector<T>& values) {
-  std::vector<T>().swap(values);
 }
 
 }  // namespace

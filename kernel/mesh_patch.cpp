@@ -10,24 +10,12 @@
 #include <set>
 #include <unordered_map>
 
+#include "kernel/in_order.h"
 #include "kernel/mesh_builder.h"
 
 namespace tetmend {
 
 namespace {
-
-using FaceKey = std::array<VertexHandle, 3>;
-using EdgeKey = std::array<VertexHandle, 2>;
-
-FaceKey key_of(std::array<VertexHandle, 3> vertices) {
-  std::sort(vertices.begin(), vertices.end());
-  return vertices;
-}
-
-EdgeKey key_of(std::array<VertexHandle, 2> vertices) {
-  std::sort(vertices.begin(), vertices.end());
-  return vertices;
-}
 
 struct FaceHash {
   std::size_t operator()(const FaceKey& key) const {
@@ -90,7 +78,7 @@ class MeshBuilder::Patch {
       const bool is_constrained = mesh_.is_constrained(face);
       const bool is_inside = !twin.is_outside() && is_listed(twin.tet());
       if (is_inside && !is_constrained) continue;
-      const FaceKey key = key_of(mesh_.vertices(face));
+      const FaceKey key = in_order(mesh_.vertices(face));
       if (is_inside) {
         constrained_.insert(key);
       } else {
@@ -99,7 +87,7 @@ class MeshBuilder::Patch {
     }
     for (unsigned e = 0; e < 6; ++e) {
       const TetEdge edge(t, e);
-      if (mesh_.is_constrained(edge)) edges_.insert(key_of(mesh_.vertices(edge)));
+      if (mesh_.is_constrained(edge)) edges_.insert(in_order(mesh_.vertices(edge)));
     }
     for (const VertexHandle v : mesh_.vertices(t)) loose_.push_back(v);
   }
@@ -143,12 +131,12 @@ class MeshBuilder::Patch {
   void match(TetHandle t) {
     for (const VertexHandle v : mesh_.vertices(t)) mesh_.vertex_tet_[v.index()] = t;
     for (unsigned e = 0; !edges_.empty() && e < 6; ++e) {
-      if (!edges_.contains(key_of(mesh_.vertices(TetEdge(t, e))))) continue;
+      if (!edges_.contains(in_order(mesh_.vertices(TetEdge(t, e))))) continue;
       mesh_.tet_flags_[t.index()] |= static_cast<TetMesh::TetFlags>(16u << e);
     }
     for (unsigned f = 0; f < 4; ++f) {
       const HalfFace face(t, f);
-      const FaceKey key = key_of(mesh_.vertices(face));
+      const FaceKey key = in_order(mesh_.vertices(face));
       const auto found = around_.find(key);
       if (found != around_.end()) {
         join(face, found->second);

@@ -6,20 +6,12 @@
 #include <algorithm>
 #include <unordered_map>
 
+#include "kernel/in_order.h"
 #include "kernel/tet_mesh.h"
 
 namespace tetmend {
 
 namespace {
-
-using FaceKey = std::array<VertexHandle, 3>;
-using EdgeKey = std::array<VertexHandle, 2>;
-
-template <class Key>
-Key in_order(Key key) {
-  std::sort(key.begin(), key.end());
-  return key;
-}
 
 /// What is new takes the places of what is gone, each within its own kind; what is left of the new
 /// follows, what is left of the gone is dropped.

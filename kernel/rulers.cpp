@@ -28,7 +28,7 @@ namespace tetmend {
 
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();  // no score: below no limit
 constexpr std::size_t kTetRulers = 8;
 constexpr std::size_t kFaceRulers = 2;
@@ -66,7 +66,7 @@ struct Tally {
   std::array<WideVector, N> worst;
   std::array<WideSum, N> sums{};
   Tally(const Limits& all, std::size_t first) {
-    worst.fill(WideVector{} + kInfinity);
+    worst.fill(WideVector{} + kUnbounded);
     std::copy_n(all.begin() + static_cast<std::ptrdiff_t>(first), N, limits.begin());
   }
 };
@@ -76,7 +76,7 @@ template <std::size_t N, class Mask>
 TETMEND_WIDE_INLINE void enter(Tally<N>& tally, std::size_t ruler, std::size_t n, WideVector score,
                                const Mask& counts) {
   const WideVector nothing = WideVector{} + kNothing;
-  score = score == score ? score : WideVector{} - kInfinity;
+  score = score == score ? score : WideVector{} - kUnbounded;
   const WideVector counted = counts ? score : nothing;
   tally.scores[ruler][n] = counted;
   tally.worst[ruler] = smaller(counted, tally.worst[ruler]);
@@ -85,9 +85,6 @@ TETMEND_WIDE_INLINE void enter(Tally<N>& tally, std::size_t ruler, std::size_t n
   add_to(tally.sums[ruler], counts ? score : WideVector{});
 }
 
-TETMEND_WIDE_INLINE WideVector larger(const WideVector& p, const WideVector& q) {
-  return p < q ? q : p;
-}
 TETMEND_WIDE_INLINE WideVector root(const WideVector& p) {
   WideVector result = {};
   for (std::size_t i = 0; i < kWideLanes; ++i) result[i] = std::sqrt(p[i]);
@@ -132,7 +129,7 @@ TETMEND_WIDE_INLINE WideVector inverse_lengths(const std::array<WideVector, 6>& 
 TETMEND_WIDE void measure(const PointRows<4>& rows, Tally<kTetRulers>& tally,
                           WideVector& shortest_edge) {
   const WideVector zero = {};
-  const WideVector infinity = zero + kInfinity;
+  const WideVector infinity = zero + kUnbounded;
   for (std::size_t g = 0; g < rows.groups(); ++g) {
     const auto in_use = lanes_in_use(rows, g);
     const WidePoint p0 = wide_point(rows.group(g), 0), p1 = wide_point(rows.group(g), 1);
@@ -255,13 +252,13 @@ TETMEND_WIDE void measure_faces(const FaceRows& rows, Tally<kFaceRulers>& tally,
 struct Part {
   struct Scores {
     std::size_t count = 0;
-    double worst = kInfinity;
+    double worst = kUnbounded;
     CompensatedSum sum;
     Sieve sieve;
   };
   std::array<Scores, kSurveyed> of;
   std::size_t faces_above_70 = 0;
-  double shortest_edge = kInfinity;
+  double shortest_edge = kUnbounded;
 };
 
 double value_of(Ruler ruler, double score);
@@ -384,7 +381,7 @@ class Surveyor {
   Tally<kTetRulers> tets_;
   Tally<kFaceRulers> faces_;
   FacesAbove faces_above_70_;
-  WideVector shortest_edge_ = WideVector{} + kInfinity;
+  WideVector shortest_edge_ = WideVector{} + kUnbounded;
   Part part_;
 };
 
@@ -430,13 +427,13 @@ Limits estimate_limits(const TetMesh& mesh) {
   constexpr std::size_t kStep = 61;
   constexpr std::size_t kLeast = 1000;  // tets of a sample that tells anything
   Limits limits;
-  limits.fill(kInfinity);
+  limits.fill(kUnbounded);
   if (mesh.tet_count() < kLeast * kStep) return limits;
   auto sample = survey(mesh, limits, kStep);
   Limits estimate;
   for (std::size_t r = 0; r < kSurveyed; ++r) {
     const std::size_t rank = 3 * count_scores(sample, r) / 100;
-    estimate[r] = find_score(sample, r, rank, kInfinity).value_or(kInfinity);
+    estimate[r] = find_score(sample, r, rank, kUnbounded).value_or(kUnbounded);
   }
   return estimate;
 }
@@ -455,7 +452,7 @@ std::optional<RulerFigures> figures_of(Ruler ruler, std::vector<Part>& parts, do
   if (count == 0) return RulerFigures();
   const auto one_percent = find_score(parts, at(ruler), (count + 99) / 100 - 1, limit);
   if (!one_percent) return std::nullopt;
-  double worst = kInfinity;
+  double worst = kUnbounded;
   CompensatedSum sum;
   for (const Part& part : parts) {
     worst = std::min(worst, part.of[at(ruler)].worst);
@@ -495,7 +492,7 @@ MeshRulers measure_rulers(const TetMesh& mesh, const P1Diagonals& diagonals, CgS
   Limits limits = estimate_limits(mesh);
   auto parts = survey(mesh, limits, 1);
   MeshRulers result;
-  if (mesh.tet_count() > 0) result.shortest_edge = kInfinity;
+  if (mesh.tet_count() > 0) result.shortest_edge = kUnbounded;
   for (const Part& part : parts) {
     result.shortest_edge = std::min(result.shortest_edge, part.shortest_edge);
     result.inner_faces += part.of[at(Ruler::non_orthogonality)].count;
@@ -504,9 +501,9 @@ MeshRulers measure_rulers(const TetMesh& mesh, const P1Diagonals& diagonals, CgS
   for (std::size_t r = 0; r < kSurveyed; ++r) {
     auto figures = figures_of(static_cast<Ruler>(r), parts, limits[r]);
     if (!figures) {  // the sample was misleading: keep all
-      limits.fill(kInfinity);
+      limits.fill(kUnbounded);
       parts = survey(mesh, limits, 1);
-      figures = figures_of(static_cast<Ruler>(r), parts, kInfinity);
+      figures = figures_of(static_cast<Ruler>(r), parts, kUnbounded);
     }
     result.figures[r] = *figures;
   }
@@ -536,7 +533,7 @@ namespace {
 /// Adds what a survey counts.
 void count_survey(const TetMesh& mesh, const Subject& subject, RulerHistograms& counts) {
   Limits keep_none;
-  keep_none.fill(-kInfinity);
+  keep_none.fill(-kUnbounded);
   RulerHistograms empty = counts;
   for (RulerHistogram& of : empty) of.counts = {};
   const auto parts =
@@ -591,7 +588,7 @@ void RulerShare::add(const RulerShare& other) {
 
 /// A tet has four vertices and four faces at most.
 WorstScores::WorstScores(std::uint64_t tets) {
-  limits_.fill(kInfinity);
+  limits_.fill(kUnbounded);
   for (std::size_t r = 0; r < kRulerCount; ++r) {
     most_[r] = static_cast<std::size_t>(place_of_one_percent(r < kTetRulers ? tets : 4 * tets) + 1);
   }

@@ -18,7 +18,7 @@ namespace tetmend {
 namespace {
 
 /// VTK's types: its own and those of Lagrange, which have the same nodes.
-std::size_t corners_of(const OtherElements& others) {
+std::size_t corner_count_of(const OtherElements& others) {
   const auto is = [&](int type, int lagrange, std::size_t nodes) {
     return (others.vtk_type == type || others.vtk_type == lagrange) && others.vertex_count == nodes;
   };
@@ -83,7 +83,7 @@ class Taking {
 
   void run() {
     for (const OtherElements& others : mesh_.other_elements) {
-      switch (corners_of(others)) {
+      switch (corner_count_of(others)) {
         case 4:
           take<4>(others, tets_of(mesh_));
           break;
@@ -98,7 +98,7 @@ class Taking {
       }
     }
     std::erase_if(mesh_.other_elements,
-                  [](const OtherElements& others) { return corners_of(others) != 0; });
+                  [](const OtherElements& others) { return corner_count_of(others) != 0; });
     join_edges();
     check_nodes();
   }
@@ -237,13 +237,13 @@ void take_second_order(MeshData& mesh) {
   const auto has = [&](auto condition) { return std::any_of(all.begin(), all.end(), condition); };
   std::size_t curved = 0;
   for (const OtherElements& others : all) {
-    if (corners_of(others) == 4) curved += others.labels.size();
+    if (corner_count_of(others) == 4) curved += others.labels.size();
   }
   if (curved > 0 && !mesh.tets.empty()) {
     mesh.notes.push_back(fmt::format("of {} tets {} are of second order: {}",
                                      mesh.tets.size() + curved, curved,
                                      formats::kStayWhereTheyAre));
-  } else if (has([](const auto& others) { return corners_of(others) != 0; })) {
+  } else if (has([](const auto& others) { return corner_count_of(others) != 0; })) {
     Taking(mesh).run();
   }
 }

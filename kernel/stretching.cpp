@@ -11,22 +11,22 @@ namespace tetmend {
 
 namespace {
 
-constexpr double kFlat = 0.25;  // least altitude in longest edges
+constexpr double kFlatTet = 0.25;  // least altitude in longest edges
 constexpr double kMostTets = 0.5;
 constexpr double kAligned = 0.8;
 
-struct Shape {
+struct Flatness {
   Point normal = Point::Zero();  // of the largest face, a unit vector
   bool flat = false;
 };
 
-Shape shape_of(const TetMesh& mesh, TetHandle t) {
+Flatness flatness_of(const TetMesh& mesh, TetHandle t) {
   const TetVertices& v = mesh.vertices(t);
   double longest2 = 0;
   for (const auto& edge : kEdgeVertices) {
     longest2 = std::max(longest2, (mesh.point(v[edge[1]]) - mesh.point(v[edge[0]])).squaredNorm());
   }
-  Shape shape;
+  Flatness shape;
   double area = 0;  // twice
   for (const auto& face : kFaceVertices) {
     const Point& a = mesh.point(v[face[0]]);
@@ -38,7 +38,7 @@ Shape shape_of(const TetMesh& mesh, TetHandle t) {
   }
   const double volume =
       volume6(mesh.point(v[0]), mesh.point(v[1]), mesh.point(v[2]), mesh.point(v[3]));
-  shape.flat = std::abs(volume) < kFlat * area * std::sqrt(longest2);
+  shape.flat = std::abs(volume) < kFlatTet * area * std::sqrt(longest2);
   return shape;
 }
 
@@ -50,14 +50,14 @@ struct Sums {
 
   void add(const TetMesh& mesh, TetHandle t) {
     ++tets;
-    const Shape shape = shape_of(mesh, t);
+    const Flatness shape = flatness_of(mesh, t);
     if (!shape.flat) return;
     ++flat;
     for (const HalfFace neighbour : mesh.neighbours(t)) {
       // Each pair once.
       if (neighbour.is_outside() || neighbour.tet() < t || mesh.is_frozen(neighbour.tet()))
         continue;
-      const Shape other = shape_of(mesh, neighbour.tet());
+      const Flatness other = flatness_of(mesh, neighbour.tet());
       if (!other.flat) continue;
       ++pairs;
       cosines += std::abs(shape.normal.dot(other.normal));

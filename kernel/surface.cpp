@@ -23,17 +23,13 @@
 
 #include "kernel/error.h"
 #include "kernel/formats/output_file.h"
+#include "kernel/in_order.h"
 
 namespace tetmend {
 
 namespace {
 
 using Triangle = std::array<VertexHandle, 3>;
-
-Triangle sorted(Triangle triangle) {
-  std::sort(triangle.begin(), triangle.end());
-  return triangle;
-}
 
 /// OpenMesh prints what it dislikes; this library does not print.
 class SilentOpenMesh {
@@ -139,7 +135,7 @@ std::uint32_t across(const TetMesh& mesh, HalfFace f, VertexHandle c) {
 
 // --- formats -------------------------------------------------------------------------------------
 
-constexpr std::array<std::string_view, 4> kExtensions = {".off", ".obj", ".ply", ".stl"};
+constexpr std::array<std::string_view, 4> kSurfaceExtensions = {".off", ".obj", ".ply", ".stl"};
 
 std::string lower_extension(const std::filesystem::path& file) {
   std::string extension = file.extension().string();
@@ -179,7 +175,7 @@ SurfaceMesh extract_constraints(const TetMesh& mesh) {
   for_each_face(mesh, [&](HalfFace f) {
     if (!mesh.is_constrained(f) || mesh.is_boundary(f)) return;
     if (mesh.label(f.tet()) < mesh.label(mesh.twin(f).tet())) {
-      borders.emplace_back(sorted(mesh.vertices(f)), f);
+      borders.emplace_back(in_order(mesh.vertices(f)), f);
     }
   });
   std::sort(borders.begin(), borders.end());
@@ -195,9 +191,9 @@ SurfaceMesh extract_constraints(const TetMesh& mesh) {
     if (!triangle.interior || triangle.loose) continue;
     Triangle v = triangle.vertices;
     const auto border =
-        std::lower_bound(borders.begin(), borders.end(), sorted(v),
+        std::lower_bound(borders.begin(), borders.end(), in_order(v),
                          [](const auto& entry, const Triangle& key) { return entry.first < key; });
-    if (border != borders.end() && border->first == sorted(v)) v = mesh.vertices(border->second);
+    if (border != borders.end() && border->first == in_order(v)) v = mesh.vertices(border->second);
     for (unsigned i = 0; i < 3; ++i) {
       const VertexHandle a = v[i];
       const VertexHandle b = v[(i + 1) % 3];
@@ -240,7 +236,7 @@ SurfaceMesh extract_bad_faces(const TetMesh& mesh, Quality threshold) {
 
 void check_surface_extension(const std::filesystem::path& file) {
   std::string valid;
-  for (const std::string_view extension : kExtensions) {
+  for (const std::string_view extension : kSurfaceExtensions) {
     if (lower_extension(file) == extension) return;
     valid += valid.empty() ? "" : ", ";
     valid += extension;

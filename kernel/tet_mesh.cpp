@@ -10,6 +10,7 @@
 #include "kernel/chunks.h"
 #include "kernel/grouping.h"
 #include "kernel/hilbert.h"
+#include "kernel/make_room.h"
 #include "kernel/mesh_view.h"
 #include "kernel/quality_of_points.h"
 #include "kernel/thin_stars.h"
@@ -43,12 +44,6 @@ void copy_named(const MeshView& view, MeshData& data) {
   data.triangles.assign(view.triangles().begin(), view.triangles().end());
   data.edges.assign(view.edges().begin(), view.edges().end());
   data.required_vertices.assign(view.required_vertices().begin(), view.required_vertices().end());
-}
-
-/// Assigning an empty list would keep the memory.
-template <class... T>
-void release(std::vector<T>&... values) {
-  (std::vector<T>().swap(values), ...);
 }
 
 }  // namespace

@@ -48,6 +48,11 @@ class PointRows {
   std::array<Group, kMost / kWideLanes> groups_;
 };
 
+/// In each lane the larger number; that of p if one is none.
+TETMEND_WIDE_INLINE WideVector larger(const WideVector& p, const WideVector& q) {
+  return p < q ? q : p;
+}
+
 /// Point p of the things of a group.
 template <std::size_t Rows>
 TETMEND_WIDE_INLINE WidePoint wide_point(const WideRows<Rows>& group, std::size_t p) {

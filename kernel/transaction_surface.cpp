@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cassert>
 
+#include "kernel/in_order.h"
 #include "kernel/make_room.h"
 #include "kernel/territory_check.h"
 #include "kernel/transaction.h"
@@ -19,12 +20,6 @@
 namespace tetmend {
 
 namespace {
-
-template <class Values>
-Values in_order(Values values) {
-  std::sort(values.begin(), values.end());
-  return values;
-}
 
 bool has_edge(std::span<const SurfaceFace> faces, const std::array<VertexHandle, 2>& edge) {
   return std::any_of(faces.begin(), faces.end(), [&](const SurfaceFace& face) {

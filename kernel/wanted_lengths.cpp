@@ -10,7 +10,7 @@ namespace tetmend {
 
 namespace {
 
-std::size_t hash_of(const Point& p) {
+std::size_t hash_of_point(const Point& p) {
   constexpr std::uint64_t kOdd = 0x9E3779B97F4A7C15;
   std::uint64_t hash = 0;
   for (const double x : {p.x(), p.y(), p.z()}) {
@@ -26,7 +26,7 @@ double WantedLengths::length(const Point& p) const {
   if (!at_) return everywhere_;
   std::vector<Asked>& asked = asked_.local();
   if (asked.empty()) asked.resize(kAsked);
-  Asked& entry = asked[hash_of(p) % kAsked];
+  Asked& entry = asked[hash_of_point(p) % kAsked];
   if (entry.place != p) {
     entry.length = at_(p);
     entry.place = p;

@@ -31,6 +31,15 @@ inline void put(const std::string& text, std::string& bytes) {
 }
 
 /// Takes so many bytes off the front. @throws Error when there are fewer.
+/// The value whose bytes are at `at`, which need not be aligned.
+template <class Value>
+Value value_at(const char* at) {
+  static_assert(std::is_trivially_copyable_v<Value>);
+  Value value;
+  std::memcpy(&value, at, sizeof(value));
+  return value;
+}
+
 inline std::string_view take_front(std::string_view& bytes, std::uint64_t size) {
   if (size > bytes.size()) throw Error("a piece ends too early");
   const std::string_view front = bytes.substr(0, size);

@@ -15,7 +15,7 @@ namespace {
 
 using pieces::RankShare;
 
-constexpr const char* kName = "mesh";  // in messages
+constexpr const char* kMeshName = "mesh";  // in messages
 
 void check_labels(std::size_t labels, std::size_t entities, std::string_view name) {
   if (labels == 0 || labels == entities) return;
@@ -85,7 +85,7 @@ class Arrays final : public pieces::ArrayFiles {
 Result improve(RankArrays& mesh, Ranks& ranks, const Options& options, const Pieces& pieces) {
   const Arrays arrays(mesh);
   pieces::OutOfCore files;
-  files.input = files.output = kName;
+  files.input = files.output = kMeshName;
   files.array_files = &arrays;
   pieces::Division division;
   division.pieces = pieces.count;

@@ -209,13 +209,13 @@ TetMesh build_own(const Piece& own, std::vector<std::uint32_t>* numbers) {
 
 constexpr std::uint8_t kAllFixed = 0b1111;
 
-bool is_worse(const NamedTet& a, const NamedTet& b) {
+bool is_worse_tet(const NamedTet& a, const NamedTet& b) {
   return std::tie(a.facts.quality, a.part, a.facts.tet) <
          std::tie(b.facts.quality, b.part, b.facts.tet);
 }
 
 void keep_worst(std::vector<NamedTet>& tets) {
-  std::sort(tets.begin(), tets.end(), is_worse);
+  std::sort(tets.begin(), tets.end(), is_worse_tet);
   if (tets.size() > kMostNamed) tets.resize(kMostNamed);
 }
 

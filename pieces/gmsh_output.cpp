@@ -40,8 +40,8 @@ struct LabelShare {
 
 /// In the order in which labels come.
 template <class Element>
-void add_shares(const Piece& piece, std::uint64_t part, std::int32_t dimension,
-                const std::vector<Element>& elements, std::vector<LabelShare>& shares) {
+void add_label_shares(const Piece& piece, std::uint64_t part, std::int32_t dimension,
+                      const std::vector<Element>& elements, std::vector<LabelShare>& shares) {
   constexpr double kFar = std::numeric_limits<double>::infinity();
   std::map<Label, std::size_t> place;
   for (const Element& element : elements) {
@@ -100,9 +100,9 @@ std::vector<LabelShare> gather_shares(const DividedMesh& mesh, const EntityNames
     Piece piece = mesh.stored(part);
     names(part, piece);
     std::vector<LabelShare> shares;
-    add_shares(piece, part, 1, piece.edges, shares);
-    add_shares(piece, part, 2, piece.triangles, shares);
-    add_shares(piece, part, 3, piece.tets, shares);
+    add_label_shares(piece, part, 1, piece.edges, shares);
+    add_label_shares(piece, part, 2, piece.triangles, shares);
+    add_label_shares(piece, part, 3, piece.tets, shares);
     for (const LabelShare& share : shares) put(share, bytes);
   }
   std::vector<LabelShare> all;

@@ -46,7 +46,7 @@ std::vector<SurfaceShare::Volume> volumes_of(const Piece& own) {
 }
 
 /// Takes the vertices of faces of a piece, and gives the faces their numbers there.
-void take_vertices(const Piece& piece, SurfaceShare& share) {
+void take_face_vertices(const Piece& piece, SurfaceShare& share) {
   for (const auto& face : share.faces) {
     for (const std::uint32_t v : face.vertices) share.ids.push_back(piece.ids[v]);
   }
@@ -163,7 +163,7 @@ SurfaceShare share_of_input(const Piece& gathered, const Parting& parting, std::
     share.faces.push_back(face);
     share.kinds.push_back(all.kinds[i]);
   }
-  take_vertices(gathered, share);
+  take_face_vertices(gathered, share);
   const auto take_edge = [&](const std::array<VertexHandle, 2>& ends, Label label,
                              std::vector<SurfaceShare::Edge>& to) {
     const std::array<std::uint32_t, 2> v = {mesh.origin(ends[0]), mesh.origin(ends[1])};
@@ -201,7 +201,7 @@ SurfaceShare share_of_input(const Piece& gathered, const Parting& parting, std::
 SurfaceShare share_of(const Piece& own) {
   SurfaceShare share;
   share.faces = own.surface;
-  take_vertices(own, share);
+  take_face_vertices(own, share);
   for (const MeshData::Edge& edge : own.lines) {
     share.edges.push_back({{own.ids[edge.vertices[0]], own.ids[edge.vertices[1]]}, edge.label});
   }

@@ -49,13 +49,6 @@ bool read_value(std::ifstream& in, Value& value) {
   return static_cast<bool>(in);
 }
 
-template <class Integer>
-Integer load(const char* at) {
-  Integer value;
-  std::memcpy(&value, at, sizeof(value));
-  return value;
-}
-
 }  // namespace
 
 std::unique_ptr<FileSlices> MeditSlices::open(const std::filesystem::path& file, Ranks& ranks) {
@@ -141,8 +134,8 @@ std::vector<std::uint64_t> MeditSlices::numbers(const Section& section, std::siz
   FileBytes bytes(file_);
   const char* at = bytes.read(section.begin, numbers.size() * integer_size());
   for (std::uint64_t& number : numbers) {
-    number =
-        static_cast<std::uint64_t>(version_ == 4 ? load<std::int64_t>(at) : load<std::int32_t>(at));
+    number = static_cast<std::uint64_t>(version_ == 4 ? value_at<std::int64_t>(at)
+                                                      : value_at<std::int32_t>(at));
     at += integer_size();
   }
   return numbers;
@@ -198,9 +191,9 @@ bool MeditSlices::are_vertices_sound(const Ranks& ranks) const {
     const std::uint64_t count = std::min(kRowsAtOnce, mine.end - i);
     const char* at = bytes.read(vertices_.begin + i * size, count * size);
     for (const char* const end = at + count * size; at != end; at += size) {
-      const Point place(load<double>(at), load<double>(at + 8), load<double>(at + 16));
+      const Point place(value_at<double>(at), value_at<double>(at + 8), value_at<double>(at + 16));
       const std::int64_t label =
-          version_ == 4 ? load<std::int64_t>(at + kPlace) : load<std::int32_t>(at + kPlace);
+          version_ == 4 ? value_at<std::int64_t>(at + kPlace) : value_at<std::int32_t>(at + kPlace);
       if (!place.allFinite() || !is_label(label)) return false;
     }
   }
@@ -240,7 +233,7 @@ constexpr std::int32_t bit_of_vector(std::size_t kind) {
 }
 
 void set_mark(std::int32_t bit, std::size_t i, std::string& rows) {
-  std::int32_t marks = load<std::int32_t>(rows.data() + i * sizeof(bit));
+  std::int32_t marks = value_at<std::int32_t>(rows.data() + i * sizeof(bit));
   marks |= bit;
   std::memcpy(rows.data() + i * sizeof(bit), &marks, sizeof(marks));
 }
@@ -353,7 +346,7 @@ class RowReader {
     for (auto& element : elements) {
       for (VertexId& v : element.vertices) v = number(std::exchange(at, at + sizeof(Integer)));
       if (has_repeated(element.vertices)) fail_changed(file_);
-      element.element.label = static_cast<Label>(load<Integer>(at));
+      element.element.label = static_cast<Label>(value_at<Integer>(at));
       at += sizeof(Integer);
     }
   }
@@ -371,10 +364,11 @@ class RowReader {
           rows_.read(section + slice.ids[k] * kRow, (slice.ids[end - 1] - slice.ids[k] + 1) * kRow);
       for (std::size_t n = k; n < end; ++n) {
         const char* here = at + (slice.ids[n] - slice.ids[k]) * kRow;
-        const Point p(load<double>(here), load<double>(here + 8), load<double>(here + 16));
+        const Point p(value_at<double>(here), value_at<double>(here + 8),
+                      value_at<double>(here + 16));
         if (!p.allFinite()) fail_changed(file_);
         slice.points.push_back(p);
-        labels.push_back(static_cast<Label>(load<Integer>(here + 24)));
+        labels.push_back(static_cast<Label>(value_at<Integer>(here + 24)));
       }
       k = end;
     }
@@ -397,7 +391,7 @@ class RowReader {
 
  private:
   VertexId number(const char* at) const {
-    const Integer value = load<Integer>(at);
+    const Integer value = value_at<Integer>(at);
     if (value < 1 || static_cast<std::uint64_t>(value) > vertices_) fail_changed(file_);
     return static_cast<VertexId>(value - 1);
   }

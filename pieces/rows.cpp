@@ -24,13 +24,6 @@ auto with_type(const DataArray& array, const Act& act) {
 }
 
 template <class Value>
-Value load(const char* at) {
-  Value value;
-  std::memcpy(&value, at, sizeof(value));
-  return value;
-}
-
-template <class Value>
 void save(Value value, char* at) {
   std::memcpy(at, &value, sizeof(value));
 }
@@ -134,7 +127,7 @@ void RowLayout::set(std::size_t array, const DataArray::Values& values, std::siz
 double RowLayout::number(std::size_t array, std::size_t component, const char* row) const {
   return with_type(arrays_[array], [&](auto type) {
     using Value = decltype(type);
-    return static_cast<double>(load<Value>(row + places_[array] + component * sizeof(Value)));
+    return static_cast<double>(value_at<Value>(row + places_[array] + component * sizeof(Value)));
   });
 }
 
@@ -148,13 +141,13 @@ void RowLayout::interpolate(const std::array<const char*, 4>& rows,
       for (std::size_t k = 0; k < arrays_[i].components; ++k) {
         const std::size_t at = places_[i] + k * sizeof(Value);
         if constexpr (std::is_integral_v<Value>) {
-          save(load<Value>(rows[most] + at), to + at);
+          save(value_at<Value>(rows[most] + at), to + at);
         } else {
           // From the first vertex on, so that a constant stays what it is.
-          const auto first = static_cast<double>(load<Value>(rows[0] + at));
+          const auto first = static_cast<double>(value_at<Value>(rows[0] + at));
           double sum = first;
           for (std::size_t c = 1; c < 4; ++c) {
-            sum += weights[c] * (static_cast<double>(load<Value>(rows[c] + at)) - first);
+            sum += weights[c] * (static_cast<double>(value_at<Value>(rows[c] + at)) - first);
           }
           save(static_cast<Value>(sum), to + at);
         }

@@ -27,7 +27,7 @@ std::string signature() {
   return fmt::format("tetmend {}: a run in pieces, 12\n", version());
 }
 
-void append(const SavedRun& saved, std::string& bytes) {
+void append_run(const SavedRun& saved, std::string& bytes) {
   put(saved.input, bytes);
   put(saved.output, bytes);
   put(saved.input_content.size, bytes);
@@ -206,7 +206,7 @@ SavedRun RunFolder::load() const {
 
 void RunFolder::save(const SavedRun& run) const {
   std::string bytes = signature();
-  append(run, bytes);
+  append_run(run, bytes);
   root(0).put(kRunFile, std::move(bytes));
   remove_steps_but(run.is_finished ? std::numeric_limits<std::size_t>::max() : step_of(run.run));
 }

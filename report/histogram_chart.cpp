@@ -15,9 +15,9 @@ namespace tetmend::report {
 
 namespace {
 
-constexpr double kWidth = 360;
-constexpr double kHeight = 190;
-constexpr Frame kPlot = {.left = 40, .top = 10, .right = 352, .bottom = 160};
+constexpr double kHistogramWidth = 360;
+constexpr double kHistogramHeight = 190;
+constexpr Frame kHistogramPlot = {.left = 40, .top = 10, .right = 352, .bottom = 160};
 using Counts = std::vector<std::size_t>;
 
 /// The bins that are shown: [begin, end).
@@ -39,9 +39,10 @@ Shown find_shown(const HistogramContent& content) {
   return shown;
 }
 
-class Chart {
+class HistogramChart {
  public:
-  explicit Chart(const HistogramContent& content) : content_(content), shown_(find_shown(content)) {
+  explicit HistogramChart(const HistogramContent& content)
+      : content_(content), shown_(find_shown(content)) {
     for (std::size_t i = shown_.begin; i < shown_.end; ++i) {
       most_ = std::max({most_, content.before[i], content.after[i]});
     }
@@ -57,26 +58,29 @@ class Chart {
                     steps(content_.before, "before", false), steps(content_.after, "after", false));
     text += x_axis();
     for (std::size_t i = shown_.begin; i < shown_.end; ++i) text += column(i);
-    return drawing(kWidth, kHeight, "histogram",
+    return drawing(kHistogramWidth, kHistogramHeight, "histogram",
                    fmt::format("{}: {} before and after", content_.title, content_.unit), text);
   }
 
  private:
   double x(std::size_t edge) const {
-    return kPlot.x(static_cast<double>(edge - shown_.begin) / static_cast<double>(shown_.size()));
+    return kHistogramPlot.x(static_cast<double>(edge - shown_.begin) /
+                            static_cast<double>(shown_.size()));
   }
   double y(double count, bool is_log) const {
     const auto most = static_cast<double>(std::max<std::size_t>(most_, 1));
-    return kPlot.y(is_log ? log_share(count, most) : count / most);
+    return kHistogramPlot.y(is_log ? log_share(count, most) : count / most);
   }
 
   std::string steps(const Counts& counts, std::string_view classes, bool is_log) const {
-    std::string path = fmt::format("M{} {}", coordinate(x(shown_.begin)), coordinate(kPlot.bottom));
+    std::string path =
+        fmt::format("M{} {}", coordinate(x(shown_.begin)), coordinate(kHistogramPlot.bottom));
     for (std::size_t i = shown_.begin; i < shown_.end; ++i) {
       path += fmt::format("V{}H{}", coordinate(y(static_cast<double>(counts[i]), is_log)),
                           coordinate(x(i + 1)));
     }
-    return fmt::format(R"(<path class="{}" d="{}V{}Z"/>)", classes, path, coordinate(kPlot.bottom));
+    return fmt::format(R"(<path class="{}" d="{}V{}Z"/>)", classes, path,
+                       coordinate(kHistogramPlot.bottom));
   }
 
   std::string y_axis(bool is_log) const {
@@ -84,8 +88,8 @@ class Chart {
     std::string text;
     for (const double tick : is_log ? decade_ticks(most, 4) : round_ticks(most, 4)) {
       const double at = y(tick, is_log);
-      text += line_between(kPlot.left, at, kPlot.right, at, "grid");
-      text += text_at(kPlot.left - 4, at + 4, "end", "tick", tick_text(tick));
+      text += line_between(kHistogramPlot.left, at, kHistogramPlot.right, at, "grid");
+      text += text_at(kHistogramPlot.left - 4, at + 4, "end", "tick", tick_text(tick));
     }
     return text;
   }
@@ -97,7 +101,7 @@ class Chart {
     for (std::size_t i = shown_.begin; i <= shown_.end; ++i) {
       longest = std::max(longest, short_number(content_.edges[i]).size());
     }
-    const double room = kPlot.width() / (kCharacter * static_cast<double>(longest + 1));
+    const double room = kHistogramPlot.width() / (kCharacter * static_cast<double>(longest + 1));
     std::size_t step = 1;
     while (static_cast<double>(shown_.size()) / static_cast<double>(step) > std::min(room, 8.0)) {
       step *= 2;
@@ -106,26 +110,29 @@ class Chart {
   }
 
   std::string x_axis() const {
-    std::string text = line_between(kPlot.left, kPlot.bottom, kPlot.right, kPlot.bottom, "axis");
+    std::string text = line_between(kHistogramPlot.left, kHistogramPlot.bottom,
+                                    kHistogramPlot.right, kHistogramPlot.bottom, "axis");
     const std::size_t step = tick_step();
     for (std::size_t i = shown_.begin; i <= shown_.end; ++i) {
       if (i % step != 0) continue;
-      text += line_between(x(i), kPlot.bottom, x(i), kPlot.bottom + 4, "axis");
-      text += text_at(x(i), kPlot.bottom + 15, "middle", "tick", short_number(content_.edges[i]));
+      text += line_between(x(i), kHistogramPlot.bottom, x(i), kHistogramPlot.bottom + 4, "axis");
+      text += text_at(x(i), kHistogramPlot.bottom + 15, "middle", "tick",
+                      short_number(content_.edges[i]));
     }
     using Better = HistogramContent::Better;
     if (content_.better == Better::right) {
-      text += text_at(kPlot.right, kHeight - 2, "end", "better", "better \u2192");
+      text += text_at(kHistogramPlot.right, kHistogramHeight - 2, "end", "better", "better \u2192");
     } else if (content_.better == Better::left) {
-      text += text_at(kPlot.left, kHeight - 2, "start", "better", "\u2190 better");
+      text +=
+          text_at(kHistogramPlot.left, kHistogramHeight - 2, "start", "better", "\u2190 better");
     }
     return text;
   }
 
   std::string zone(double from, double to) const {
     return fmt::format(R"(<rect class="miss" x="{}" y="{}" width="{}" height="{}"/>)",
-                       coordinate(from), coordinate(kPlot.top), coordinate(to - from),
-                       coordinate(kPlot.height()));
+                       coordinate(from), coordinate(kHistogramPlot.top), coordinate(to - from),
+                       coordinate(kHistogramPlot.height()));
   }
 
   /// Precondition: bins of one width.
@@ -133,10 +140,10 @@ class Chart {
     if (content_.bad_below == content_.bad_above) return {};
     const double low = content_.edges[shown_.begin];
     const double high = content_.edges[shown_.end];
-    const auto place = [&](double value) { return kPlot.x((value - low) / (high - low)); };
+    const auto place = [&](double value) { return kHistogramPlot.x((value - low) / (high - low)); };
     std::string text;
-    if (content_.bad_below > low) text += zone(kPlot.left, place(content_.bad_below));
-    if (content_.bad_above < high) text += zone(place(content_.bad_above), kPlot.right);
+    if (content_.bad_below > low) text += zone(kHistogramPlot.left, place(content_.bad_below));
+    if (content_.bad_above < high) text += zone(place(content_.bad_above), kHistogramPlot.right);
     return text;
   }
 
@@ -152,8 +159,8 @@ class Chart {
     return fmt::format(
         R"(<rect class="bin" data-bin="{}" x="{}" y="{}" width="{}" height="{}"><title>{}: )"
         "{} {} before, {} after</title></rect>",
-        i, coordinate(x(i)), coordinate(kPlot.top), coordinate(x(i + 1) - x(i)),
-        coordinate(kPlot.height()), range(i), grouped(content_.before[i]), content_.unit,
+        i, coordinate(x(i)), coordinate(kHistogramPlot.top), coordinate(x(i + 1) - x(i)),
+        coordinate(kHistogramPlot.height()), range(i), grouped(content_.before[i]), content_.unit,
         grouped(content_.after[i]));
   }
 
@@ -169,7 +176,7 @@ std::string histogram_chart(const HistogramContent& content) {
       R"(<figure class="chart" data-histogram="{}"><figcaption><b>{}</b><span>{}</span></figcaption>{}</figure>)"
       "\n",
       explain::escaped(content.name), explain::escaped(content.title),
-      explain::escaped(content.help), Chart(content).draw());
+      explain::escaped(content.help), HistogramChart(content).draw());
 }
 
 }  // namespace tetmend::report

@@ -121,7 +121,7 @@ std::vector<std::size_t> counts_at(const Figures& figures, std::string_view path
   return counts.is_array() ? counts.get<std::vector<std::size_t>>() : std::vector<std::size_t>();
 }
 
-HistogramContent angles_of(const Figures& figures) {
+HistogramContent angle_histogram(const Figures& figures) {
   HistogramContent content;
   content.name = "angles";
   content.title = "dihedral angles";
@@ -144,7 +144,7 @@ std::string measure_tables(const Figures& figures) {
 }
 
 std::string histograms(const Figures& figures) {
-  std::string text = histogram_chart(angles_of(figures));
+  std::string text = histogram_chart(angle_histogram(figures));
   for (const RulerInfo& ruler : kRulers) {
     const std::string path = fmt::format("histograms.{}", ruler.name);
     if (!figures.has(path)) continue;

@@ -17,9 +17,9 @@ namespace {
 
 using explain::escaped;
 
-constexpr double kWidth = 560;
-constexpr double kHeight = 300;
-constexpr Frame kPlot = {.left = 52, .top = 26, .right = 508, .bottom = 262};
+constexpr double kProgressWidth = 560;
+constexpr double kProgressHeight = 300;
+constexpr Frame kProgressPlot = {.left = 52, .top = 26, .right = 508, .bottom = 262};
 
 struct PassPoint {
   std::string name;
@@ -55,9 +55,9 @@ std::vector<PassPoint> read_passes(const Figures& figures) {
   return passes;
 }
 
-class Chart {
+class ProgressChart {
  public:
-  explicit Chart(std::vector<PassPoint> passes) : passes_(std::move(passes)) {
+  explicit ProgressChart(std::vector<PassPoint> passes) : passes_(std::move(passes)) {
     time_ = std::max(passes_.back().end, 1e-9);
     for (const PassPoint& pass : passes_) {
       most_bad_ = std::max({most_bad_, pass.bad_before, pass.bad_after});
@@ -66,17 +66,18 @@ class Chart {
   }
 
   std::string draw() const {
-    return drawing(kWidth, kHeight, "progress", "Bad tets and worst quality over time",
+    return drawing(kProgressWidth, kProgressHeight, "progress",
+                   "Bad tets and worst quality over time",
                    rounds() + axes() + bad_line() + worst_line() + columns());
   }
 
  private:
-  double x(double seconds) const { return kPlot.x(seconds / time_); }
+  double x(double seconds) const { return kProgressPlot.x(seconds / time_); }
   double y_bad(std::size_t count) const {
-    return kPlot.y(log_share(static_cast<double>(count),
-                             static_cast<double>(std::max<std::size_t>(most_bad_, 1))));
+    return kProgressPlot.y(log_share(static_cast<double>(count),
+                                     static_cast<double>(std::max<std::size_t>(most_bad_, 1))));
   }
-  double y_worst(double quality) const { return kPlot.y(std::max(quality, 0.0) / best_); }
+  double y_worst(double quality) const { return kProgressPlot.y(std::max(quality, 0.0) / best_); }
 
   /// Every second round lies on a stripe.
   std::string rounds() const {
@@ -88,11 +89,11 @@ class Chart {
       const double width = x(passes_[end - 1].end) - left;
       if (passes_[i].round % 2 == 1) {
         text += fmt::format(R"(<rect class="stripe" x="{}" y="{}" width="{}" height="{}"/>)",
-                            coordinate(left), coordinate(kPlot.top), coordinate(width),
-                            coordinate(kPlot.height()));
+                            coordinate(left), coordinate(kProgressPlot.top), coordinate(width),
+                            coordinate(kProgressPlot.height()));
       }
       if (width > 50 && passes_[i].round > 0) {
-        text += text_at(left + width / 2, kPlot.bottom - 6, "middle", "tick",
+        text += text_at(left + width / 2, kProgressPlot.bottom - 6, "middle", "tick",
                         fmt::format("round {}", passes_[i].round));
       }
       i = end;
@@ -101,30 +102,34 @@ class Chart {
   }
 
   std::string axes() const {
-    std::string text = line_between(kPlot.left, kPlot.bottom, kPlot.right, kPlot.bottom, "axis");
+    std::string text = line_between(kProgressPlot.left, kProgressPlot.bottom, kProgressPlot.right,
+                                    kProgressPlot.bottom, "axis");
     for (const double tick : round_ticks(time_, 5)) {
-      text += line_between(x(tick), kPlot.bottom, x(tick), kPlot.bottom + 4, "axis");
-      text += text_at(x(tick), kPlot.bottom + 17, "middle", "tick", short_number(tick));
+      text +=
+          line_between(x(tick), kProgressPlot.bottom, x(tick), kProgressPlot.bottom + 4, "axis");
+      text += text_at(x(tick), kProgressPlot.bottom + 17, "middle", "tick", short_number(tick));
     }
-    text += text_at(kPlot.right, kHeight - 4, "end", "tick", "seconds of improving");
+    text +=
+        text_at(kProgressPlot.right, kProgressHeight - 4, "end", "tick", "seconds of improving");
     std::vector<double> counts =
         decade_ticks(static_cast<double>(std::max<std::size_t>(most_bad_, 1)), 4);
     counts.insert(counts.begin(), 0);
     for (const double tick : counts) {
       const double at = y_bad(static_cast<std::size_t>(tick));
-      text += line_between(kPlot.left, at, kPlot.right, at, "grid");
-      text += text_at(kPlot.left - 5, at + 4, "end", "tick bad-ink", tick_text(tick));
+      text += line_between(kProgressPlot.left, at, kProgressPlot.right, at, "grid");
+      text += text_at(kProgressPlot.left - 5, at + 4, "end", "tick bad-ink", tick_text(tick));
     }
     for (const double tick : round_ticks(best_, 4)) {
-      text += text_at(kPlot.right + 5, y_worst(tick) + 4, "start", "tick worst-ink",
+      text += text_at(kProgressPlot.right + 5, y_worst(tick) + 4, "start", "tick worst-ink",
                       short_number(tick));
     }
     text += text_at(4, 14, "start", "bad-ink", "bad tets (logarithmic)");
-    return text + text_at(kWidth - 4, 14, "end", "worst-ink", "worst quality (1: the goal)");
+    return text +
+           text_at(kProgressWidth - 4, 14, "end", "worst-ink", "worst quality (1: the goal)");
   }
 
   std::string bad_line() const {
-    std::string path = fmt::format("M{} {}", coordinate(kPlot.left),
+    std::string path = fmt::format("M{} {}", coordinate(kProgressPlot.left),
                                    coordinate(y_bad(passes_.front().bad_before)));
     for (const PassPoint& pass : passes_) {
       path += fmt::format("L{} {}", coordinate(x(pass.end)), coordinate(y_bad(pass.bad_after)));
@@ -149,11 +154,11 @@ class Chart {
       text += fmt::format(
           R"(<rect class="bin" x="{}" y="{}" width="{}" height="{}"><title>{}{}: {} s; )"
           "{} tried, {} kept; bad tets {} to {}; worst quality {}</title></rect>",
-          coordinate(x(pass.begin)), coordinate(kPlot.top),
-          coordinate(std::max(x(pass.end) - x(pass.begin), kNarrowest)), coordinate(kPlot.height()),
-          escaped(pass.name), round, short_number(pass.end - pass.begin), grouped(pass.attempts),
-          grouped(pass.accepted), grouped(pass.bad_before), grouped(pass.bad_after),
-          short_number(pass.worst));
+          coordinate(x(pass.begin)), coordinate(kProgressPlot.top),
+          coordinate(std::max(x(pass.end) - x(pass.begin), kNarrowest)),
+          coordinate(kProgressPlot.height()), escaped(pass.name), round,
+          short_number(pass.end - pass.begin), grouped(pass.attempts), grouped(pass.accepted),
+          grouped(pass.bad_before), grouped(pass.bad_after), short_number(pass.worst));
     }
     return text;
   }
@@ -216,7 +221,7 @@ std::string bar(std::string_view classes, double share) {
 
 std::string progress_chart(const Figures& figures) {
   std::vector<PassPoint> passes = read_passes(figures);
-  return passes.empty() ? std::string() : Chart(std::move(passes)).draw();
+  return passes.empty() ? std::string() : ProgressChart(std::move(passes)).draw();
 }
 
 std::string pass_table(const Figures& figures) {

@@ -19,14 +19,14 @@ namespace {
 
 using explain::escaped;
 using Corners = std::array<Eigen::Vector3d, 4>;
-using Places = std::array<Eigen::Vector2d, 4>;
+using Projection = std::array<Eigen::Vector2d, 4>;
 
-constexpr double kWidth = 180;
-constexpr double kHeight = 140;
+constexpr double kTetWidth = 180;
+constexpr double kTetHeight = 140;
 
 /// Places on the drawing. It lies in the two directions in which the corners spread most, turned a
 /// little, so that a flat tet is not seen as a flat quadrilateral.
-Places project(const Corners& corners) {
+Projection project(const Corners& corners) {
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();
   for (const Eigen::Vector3d& p : corners) centre += p / 4;
   double size = 0;
@@ -42,7 +42,7 @@ Places project(const Corners& corners) {
   const Eigen::Vector3d right = axes.eigenvectors().col(2);
   const Eigen::Vector3d up =
       std::cos(kTilt) * axes.eigenvectors().col(1) + std::sin(kTilt) * axes.eigenvectors().col(0);
-  Places places;
+  Projection places;
   for (std::size_t i = 0; i < 4; ++i) {
     const Eigen::Vector3d q = (corners[i] - centre) / size;
     places[i] = {q.dot(right), -q.dot(up)};
@@ -51,7 +51,7 @@ Places project(const Corners& corners) {
 }
 
 /// The same within the drawing.
-Places fitted(Places places) {
+Projection fitted(Projection places) {
   Eigen::Vector2d low = places[0];
   Eigen::Vector2d high = places[0];
   for (const Eigen::Vector2d& p : places) {
@@ -61,13 +61,13 @@ Places fitted(Places places) {
   constexpr double kMargin = 22;
   const Eigen::Vector2d extent = (high - low).cwiseMax(1e-9);
   const double scale =
-      std::min((kWidth - 2 * kMargin) / extent.x(), (kHeight - 2 * kMargin) / extent.y());
-  const Eigen::Vector2d middle(kWidth / 2, kHeight / 2);
+      std::min((kTetWidth - 2 * kMargin) / extent.x(), (kTetHeight - 2 * kMargin) / extent.y());
+  const Eigen::Vector2d middle(kTetWidth / 2, kTetHeight / 2);
   for (Eigen::Vector2d& p : places) p = middle + scale * (p - (low + high) / 2);
   return places;
 }
 
-std::string draw_faces(const Places& p) {
+std::string draw_faces(const Projection& p) {
   std::string text;
   for (const auto& [i, j, k] : kFaceVertices) {
     text += fmt::format(R"(<polygon class="face" points="{},{} {},{} {},{}"/>)",
@@ -77,19 +77,19 @@ std::string draw_faces(const Places& p) {
   return text;
 }
 
-Eigen::Vector2d label_place(const Places& p, std::size_t edge) {
+Eigen::Vector2d label_place(const Projection& p, std::size_t edge) {
   const auto& [i, j] = kEdgeVertices[edge];
   const Eigen::Vector2d at = (p[i] + p[j]) / 2;
-  return {std::clamp(at.x(), 24.0, kWidth - 24), std::clamp(at.y() + 4, 14.0, kHeight - 6)};
+  return {std::clamp(at.x(), 24.0, kTetWidth - 24), std::clamp(at.y() + 4, 14.0, kTetHeight - 6)};
 }
 
 /// The angle at an edge; beside the middle of the edge if another text is there.
-std::string angle_label(const Places& p, std::size_t edge, double degrees,
+std::string angle_label(const Projection& p, std::size_t edge, double degrees,
                         const Eigen::Vector2d* other) {
   const Eigen::Vector2d at = label_place(p, edge);
   double y = at.y();
   if (other != nullptr && std::abs(at.x() - other->x()) < 44 && std::abs(y - other->y()) < 15) {
-    y = other->y() + (other->y() > kHeight / 2 ? -15 : 15);
+    y = other->y() + (other->y() > kTetHeight / 2 ? -15 : 15);
   }
   return text_at(at.x(), y, "middle", "angle", fmt::format("{:.3g}\u00b0", degrees));
 }
@@ -131,7 +131,7 @@ std::string list_item(const Figures& figures, std::size_t i) {
 
 std::string tet_picture(const Corners& corners, const std::array<bool, 4>& is_free,
                         std::array<double, 2> goal) {
-  const Places p = fitted(project(corners));
+  const Projection p = fitted(project(corners));
   const auto angles = dihedral_angles(corners[0], corners[1], corners[2], corners[3]);
   std::string text = draw_faces(p);
   for (std::size_t e = 0; e < 6; ++e) {
@@ -148,7 +148,7 @@ std::string tet_picture(const Corners& corners, const std::array<bool, 4>& is_fr
   const Eigen::Vector2d place = label_place(p, first);
   text += angle_label(p, first, *least, nullptr);
   text += angle_label(p, static_cast<std::size_t>(greatest - angles.begin()), *greatest, &place);
-  return drawing(kWidth, kHeight, "tet",
+  return drawing(kTetWidth, kTetHeight, "tet",
                  fmt::format("A tet with angles from {:.3g} to {:.3g} degrees", *least, *greatest),
                  text);
 }

@@ -22,12 +22,6 @@ std::size_t text_length(lua_State* lua, int index) {
   return lua_type(lua, index) == LUA_TSTRING ? static_cast<std::size_t>(lua_rawlen(lua, index)) : 0;
 }
 
-std::string_view text_at(lua_State* lua, int index) {
-  std::size_t length = 0;
-  const char* text = lua_tolstring(lua, index, &length);
-  return {text, length};
-}
-
 lua_Integer list_length(lua_State* lua, int index) {
   luaL_checktype(lua, index, LUA_TTABLE);
   return static_cast<lua_Integer>(lua_rawlen(lua, index));
@@ -336,6 +330,12 @@ void push_string_library(lua_State* lua) {
 }
 
 }  // namespace
+
+std::string_view text_at(lua_State* lua, int index) {
+  std::size_t length = 0;
+  const char* text = lua_tolstring(lua, index, &length);
+  return {text, length};
+}
 
 void charge_arguments(lua_State* lua) {
   const int count = lua_gettop(lua);

@@ -3,6 +3,8 @@
 // functions of Lua (schedule/lua_box.h).
 #pragma once
 
+#include <string_view>
+
 #include <lua.hpp>
 
 namespace tetmend {
@@ -11,6 +13,9 @@ namespace tetmend {
 /// box (lua_state.h). None tells an address, asks a clock, or depends on the order in which Lua's
 /// hashing happens to keep keys.
 void push_library(lua_State* lua);
+
+/// The text at an index; a number there becomes its text. Empty for anything else.
+std::string_view text_at(lua_State* lua, int index);
 
 /// Pushes what tostring() says: of tables and functions only what they are.
 void push_text(lua_State* lua, int index);

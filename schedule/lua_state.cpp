@@ -26,7 +26,7 @@ constexpr std::size_t kBytesBetweenWatches = std::size_t{4} << 20;
 constexpr std::size_t kLongestMessage = 4000;
 constexpr std::size_t kLongestName = 100;
 constexpr std::size_t kMostNames = 200;
-constexpr const char* kWords = "tetmend words";
+constexpr const char* kWordsKey = "tetmend words";
 
 }  // namespace
 
@@ -60,14 +60,8 @@ void LuaBox::check_outside() const {
 
 namespace {
 
-std::string_view text_at(lua_State* lua, int index) {
-  std::size_t length = 0;
-  const char* text = lua_tolstring(lua, index, &length);
-  return {text, length};
-}
-
 /// The words in the table at 3 and what the script made itself in that at 1, for the name at 2.
-[[noreturn]] void refuse_name(lua_State* lua) {
+[[noreturn]] void refuse_global(lua_State* lua) {
   std::set<std::string_view> valid;  // of Lua: they stay for as long as the tables
   for (const int table : {3, 1}) {
     lua_pushnil(lua);
@@ -104,15 +98,15 @@ void charge_steps(lua_State* lua, std::size_t steps) {
 namespace {
 
 int unknown_global(lua_State* lua) {
-  lua_getfield(lua, LUA_REGISTRYINDEX, kWords);
+  lua_getfield(lua, LUA_REGISTRYINDEX, kWordsKey);
   lua_pushvalue(lua, 2);
   if (lua_rawget(lua, -2) != LUA_TNIL) return 1;
-  is_done(box_of(lua), [lua] { refuse_name(lua); });
+  is_done(box_of(lua), [lua] { refuse_global(lua); });
   return raise(lua, 1);
 }
 
 int new_global(lua_State* lua) {
-  lua_getfield(lua, LUA_REGISTRYINDEX, kWords);
+  lua_getfield(lua, LUA_REGISTRYINDEX, kWordsKey);
   lua_pushvalue(lua, 2);
   if (lua_rawget(lua, -2) != LUA_TNIL) {
     return luaL_error(lua, "'%s' is a word of the language and cannot be set",
@@ -212,7 +206,7 @@ int add_place(lua_State* lua) {
 /// Words, and a table of globals without any: it will hold what the script makes.
 int make_names(lua_State* lua) {
   push_library(lua);
-  lua_setfield(lua, LUA_REGISTRYINDEX, kWords);
+  lua_setfield(lua, LUA_REGISTRYINDEX, kWordsKey);
   make_globals(lua);
   return 0;
 }
@@ -311,11 +305,11 @@ void LuaState::add(Addition addition) {
 }
 
 void LuaState::add_word(const std::string& name, Word word, lua_CFunction front) {
-  add({kWords, name.c_str(), &box_->words.emplace_back(std::move(word)), front});
+  add({kWordsKey, name.c_str(), &box_->words.emplace_back(std::move(word)), front});
 }
 
 void LuaState::add_function(const std::string& name, lua_CFunction function) {
-  add({kWords, name.c_str(), nullptr, function});
+  add({kWordsKey, name.c_str(), nullptr, function});
 }
 
 void LuaState::add_metamethod(const char* table, const char* event, Word word,

@@ -16,7 +16,7 @@ namespace tetmend {
 
 namespace {
 
-using Kind = ScheduleParameter::Kind;
+using ParameterKind = ScheduleParameter::Kind;
 
 constexpr double kExactIntegers = 9007199254740992;  // 2^53
 
@@ -34,11 +34,11 @@ std::vector<std::string> read_choices(const Subject& subject, const ScriptValue&
 void read_default(const Subject& subject, const ScriptValue& value, ScheduleParameter& parameter) {
   parameter.initial = value.number;
   if (value.kind == ScriptValue::Kind::flag) {
-    parameter.kind = Kind::flag;
+    parameter.kind = ParameterKind::flag;
     return;
   }
   read_number(subject, value);
-  parameter.kind = value.is_integer ? Kind::integer : Kind::real;
+  parameter.kind = value.is_integer ? ParameterKind::integer : ParameterKind::real;
 }
 
 void check_name(const std::string& name, const std::vector<ScheduleParameter>& earlier) {
@@ -69,7 +69,7 @@ double checked_number(const ScheduleParameter& parameter, const std::string& tex
   if (!(number >= parameter.low && number <= parameter.high)) {
     throw Error(fmt::format("{} = {} is outside {}", parameter.name, text, parameter.range()));
   }
-  if (parameter.kind == Kind::integer && number != std::floor(number)) {
+  if (parameter.kind == ParameterKind::integer && number != std::floor(number)) {
     throw Error(fmt::format("{} = {} is not a whole number", parameter.name, text));
   }
   return number;
@@ -79,20 +79,20 @@ double checked_number(const ScheduleParameter& parameter, const std::string& tex
 
 std::string ScheduleParameter::range() const {
   switch (kind) {
-    case Kind::flag:
+    case ParameterKind::flag:
       return "true or false";
-    case Kind::choice:
+    case ParameterKind::choice:
       return fmt::format("{}", fmt::join(choices, ", "));
-    case Kind::integer:
-    case Kind::real:
+    case ParameterKind::integer:
+    case ParameterKind::real:
       break;
   }
   return fmt::format("{} to {}", low, high);
 }
 
 std::string ScheduleParameter::initial_text() const {
-  if (kind == Kind::flag) return initial != 0 ? "true" : "false";
-  return kind == Kind::choice ? choices.front() : fmt::format("{}", initial);
+  if (kind == ParameterKind::flag) return initial != 0 ? "true" : "false";
+  return kind == ParameterKind::choice ? choices.front() : fmt::format("{}", initial);
 }
 
 ScheduleParameter read_parameter(const ScriptValue& value,
@@ -124,11 +124,12 @@ ScheduleParameter read_parameter(const ScriptValue& value,
                               subject.text, name));
     }
   }
-  if (!parameter.choices.empty()) parameter.kind = Kind::choice;
+  if (!parameter.choices.empty()) parameter.kind = ParameterKind::choice;
   if (has_default != parameter.choices.empty()) {
     throw Error(fmt::format("{} needs either a default or choices", subject.text));
   }
-  const bool is_number = parameter.kind == Kind::integer || parameter.kind == Kind::real;
+  const bool is_number =
+      parameter.kind == ParameterKind::integer || parameter.kind == ParameterKind::real;
   if (is_number && !(parameter.initial >= parameter.low && parameter.initial <= parameter.high)) {
     throw Error(fmt::format("{}: the default {} is outside {}", subject.text, parameter.initial,
                             parameter.range()));
@@ -142,20 +143,21 @@ std::pair<double, std::string> chosen_value(const ScheduleParameter& parameter,
     return entry.first == parameter.name;
   });
   if (setting == settings.rend()) {
-    return {parameter.initial, parameter.kind == Kind::choice ? parameter.choices.front() : ""};
+    return {parameter.initial,
+            parameter.kind == ParameterKind::choice ? parameter.choices.front() : ""};
   }
   const std::string& text = setting->second;
   switch (parameter.kind) {
-    case Kind::choice:
+    case ParameterKind::choice:
       if (std::find(parameter.choices.begin(), parameter.choices.end(), text) !=
           parameter.choices.end())
         return {0, text};
       break;
-    case Kind::flag:
+    case ParameterKind::flag:
       if (text == "true" || text == "false") return {text == "true" ? 1 : 0, ""};
       break;
-    case Kind::integer:
-    case Kind::real:
+    case ParameterKind::integer:
+    case ParameterKind::real:
       return {checked_number(parameter, text), ""};
   }
   throw Error(fmt::format("{} = {}: valid: {}", parameter.name, text, parameter.range()));

@@ -16,7 +16,7 @@ namespace tetmend {
 
 namespace {
 
-using Kind = ScriptValue::Kind;
+using ValueKind = ScriptValue::Kind;
 
 [[noreturn]] void refuse(const Subject& subject, std::string_view wanted,
                          const ScriptValue& value) {
@@ -62,8 +62,8 @@ Label read_label(const Subject& subject, const ScriptValue& value) {
 }
 
 std::vector<Label> read_labels(const Subject& subject, const ScriptValue& value) {
-  if (value.kind == Kind::number) return {read_label(subject, value)};
-  if (value.kind != Kind::table || value.list.empty() || !value.fields.empty()) {
+  if (value.kind == ValueKind::number) return {read_label(subject, value)};
+  if (value.kind != ValueKind::table || value.list.empty() || !value.fields.empty()) {
     refuse(subject, "a number or a list of numbers", value);
   }
   std::vector<Label> labels;
@@ -73,7 +73,7 @@ std::vector<Label> read_labels(const Subject& subject, const ScriptValue& value)
 }
 
 Eigen::AlignedBox3d read_box(const Subject& subject, const ScriptValue& value) {
-  if (value.kind != Kind::table || value.list.size() != 6 || !value.fields.empty()) {
+  if (value.kind != ValueKind::table || value.list.size() != 6 || !value.fields.empty()) {
     refuse(subject, "{x_low, y_low, z_low, x_high, y_high, z_high}", value);
   }
   std::array<double, 6> bounds{};
@@ -89,7 +89,7 @@ Eigen::AlignedBox3d read_box(const Subject& subject, const ScriptValue& value) {
 ValueRange read_range(const Subject& subject, const ScriptValue& value) {
   static constexpr std::array<std::string_view, 2> kFields = {"low", "high"};
   ValueRange range;
-  if (value.kind != Kind::table || value.list.size() != 1) {
+  if (value.kind != ValueKind::table || value.list.size() != 1) {
     refuse(subject, "{name, low = number, high = number}", value);
   }
   range.name = read_text(subject, value.list[0]);
@@ -162,7 +162,7 @@ unsigned read_most_edges(const Subject& subject, const ScriptValue& value) {
 
 ScriptValue ScriptValue::of_flag(bool flag) {
   ScriptValue value;
-  value.kind = Kind::flag;
+  value.kind = ValueKind::flag;
   value.number = flag ? 1 : 0;
   return value;
 }
@@ -175,21 +175,21 @@ ScriptValue ScriptValue::of_integer(double number) {
 
 ScriptValue ScriptValue::of_number(double number) {
   ScriptValue value;
-  value.kind = Kind::number;
+  value.kind = ValueKind::number;
   value.number = number;
   return value;
 }
 
 ScriptValue ScriptValue::of_text(std::string_view text) {
   ScriptValue value;
-  value.kind = Kind::text;
+  value.kind = ValueKind::text;
   value.text = text;
   return value;
 }
 
 ScriptValue ScriptValue::empty_table() {
   ScriptValue value;
-  value.kind = Kind::table;
+  value.kind = ValueKind::table;
   return value;
 }
 
@@ -202,29 +202,29 @@ const ScriptValue* ScriptValue::field(std::string_view name) const {
 
 std::string ScriptValue::quoted() const {
   switch (kind) {
-    case Kind::nothing:
+    case ValueKind::nothing:
       return "nothing";
-    case Kind::flag:
+    case ValueKind::flag:
       return number != 0 ? "true" : "false";
-    case Kind::number:
+    case ValueKind::number:
       return fmt::format("{}", number);
-    case Kind::text:
+    case ValueKind::text:
       return "'" + text + "'";
-    case Kind::table:
+    case ValueKind::table:
       return "a table";
   }
   return "";
 }
 
 double read_number(const Subject& subject, const ScriptValue& value) {
-  if (value.kind != Kind::number || !std::isfinite(value.number)) {
+  if (value.kind != ValueKind::number || !std::isfinite(value.number)) {
     refuse(subject, "a number", value);
   }
   return value.number;
 }
 
 const std::string& read_text(const Subject& subject, const ScriptValue& value) {
-  if (value.kind != Kind::text) refuse(subject, "a text", value);
+  if (value.kind != ValueKind::text) refuse(subject, "a text", value);
   return value.text;
 }
 
@@ -232,12 +232,12 @@ Selection read_selection(const Subject& subject, const ScriptValue& value) {
   static constexpr std::array<std::string_view, 8> kFields = {
       "at_least", "below", "box", "label", "property", "share", "since", "worst"};
   Selection selection;
-  if (value.kind == Kind::text && value.text == "bad") return selection;
-  if (value.kind == Kind::text && value.text == "all") {
+  if (value.kind == ValueKind::text && value.text == "bad") return selection;
+  if (value.kind == ValueKind::text && value.text == "all") {
     selection.below = Selection::kAll;
     return selection;
   }
-  if (value.kind != Kind::table || !value.list.empty()) {
+  if (value.kind != ValueKind::table || !value.list.empty()) {
     refuse(subject, "'bad', 'all' or a table of conditions", value);
   }
   for (const auto& [name, condition] : value.fields) {
@@ -268,11 +268,11 @@ Selection read_selection(const Subject& subject, const ScriptValue& value) {
 Composition read_composition(const Registry& registry, const Subject& subject,
                              const ScriptValue& value) {
   Composition composition;
-  if (value.kind == Kind::text) {
+  if (value.kind == ValueKind::text) {
     composition.operator_name = registry.find(value.text).name;
     return composition;
   }
-  if (value.kind != Kind::table) {
+  if (value.kind != ValueKind::table) {
     refuse(subject, "an operator, first_of{...}, all_of{...} or sequence{...}", value);
   }
   if (const ScriptValue* how = value.field("how")) {
@@ -308,7 +308,7 @@ bool read_setting(const Subject& subject, std::span<const ParameterSpec> specs,
                                  [&](const ParameterSpec& s) { return s.name == name; });
   if (spec == specs.end()) return false;
   const bool is_flag = spec->kind == ParameterSpec::Kind::flag;
-  if (is_flag && value.kind != Kind::flag) refuse(subject, "true or false", value);
+  if (is_flag && value.kind != ValueKind::flag) refuse(subject, "true or false", value);
   if (!is_flag) read_number(subject, value);
   settings.emplace_back(name, value.number);
   return true;

@@ -13,15 +13,13 @@ namespace tetmend {
 
 namespace {
 
-using Kind = ScriptValue::Kind;
-
 constexpr int kDeepest = 16;
 
 /// Memory of a value and of what is made from it: a composition, a place in a vector that grows.
 constexpr std::size_t kBytesOfValue = 256;
 
 /// Only a text: Lua would turn a number into one, for which it might lack memory.
-std::string_view text_at(lua_State* lua, int index) {
+std::string_view string_at(lua_State* lua, int index) {
   if (lua_type(lua, index) != LUA_TSTRING) return {};
   std::size_t length = 0;
   const char* text = lua_tolstring(lua, index, &length);
@@ -42,16 +40,16 @@ class Reader {
       case LUA_TNONE:
         return value;
       case LUA_TBOOLEAN:
-        value.kind = Kind::flag;
+        value.kind = ScriptValue::Kind::flag;
         value.number = lua_toboolean(lua_, index);
         return value;
       case LUA_TNUMBER:
-        value.kind = Kind::number;
+        value.kind = ScriptValue::Kind::number;
         value.number = lua_tonumber(lua_, index);
         value.is_integer = lua_isinteger(lua_, index) != 0;
         return value;
       case LUA_TSTRING:
-        value.kind = Kind::text;
+        value.kind = ScriptValue::Kind::text;
         value.text = take_text(index);
         return value;
       case LUA_TTABLE:
@@ -65,7 +63,7 @@ class Reader {
  private:
   /// A copy: what is shared in Lua may be large when it is copied often.
   std::string take_text(int index) const {
-    const std::string_view text = text_at(lua_, index);
+    const std::string_view text = string_at(lua_, index);
     call_.hold_in_call(2 * text.size());
     call_.charge_steps(text.size() / 64);
     return std::string(text);
@@ -76,7 +74,7 @@ class Reader {
       throw Error("tables are nested too deep");
     }
     ScriptValue value;
-    value.kind = Kind::table;
+    value.kind = ScriptValue::Kind::table;
     const auto length = static_cast<lua_Integer>(lua_rawlen(lua_, index));
     for (lua_Integer i = 1; i <= length; ++i) {
       lua_rawgeti(lua_, index, i);
@@ -116,7 +114,7 @@ ScriptValue WordCall::argument(int i) const {
 }
 
 std::string_view WordCall::text(int i) const {
-  return text_at(lua_, i);
+  return string_at(lua_, i);
 }
 
 void WordCall::give(ScriptValue value) {
@@ -144,17 +142,17 @@ namespace {
 void push(lua_State* lua, const ScriptValue& value) {
   luaL_checkstack(lua, 4, "tables are nested too deep");
   switch (value.kind) {
-    case Kind::nothing:
+    case ScriptValue::Kind::nothing:
       return lua_pushnil(lua);
-    case Kind::flag:
+    case ScriptValue::Kind::flag:
       return lua_pushboolean(lua, value.number != 0 ? 1 : 0);
-    case Kind::number:
+    case ScriptValue::Kind::number:
       if (value.is_integer) return lua_pushinteger(lua, static_cast<lua_Integer>(value.number));
       return lua_pushnumber(lua, value.number);
-    case Kind::text:
+    case ScriptValue::Kind::text:
       lua_pushlstring(lua, value.text.data(), value.text.size());
       return;
-    case Kind::table:
+    case ScriptValue::Kind::table:
       break;
   }
   lua_newtable(lua);

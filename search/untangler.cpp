@@ -31,7 +31,7 @@ struct Softened {
   }
 };
 
-double dot(const std::vector<Point>& x, const std::vector<Point>& y) {
+double chunked_dot(const std::vector<Point>& x, const std::vector<Point>& y) {
   double sum = 0;
   const auto part = [&](std::size_t begin, std::size_t end) {
     double chunk = 0;
@@ -43,7 +43,7 @@ double dot(const std::vector<Point>& x, const std::vector<Point>& y) {
 }
 
 /// x += factor y
-void add(std::vector<Point>& x, double factor, const std::vector<Point>& y) {
+void chunked_add(std::vector<Point>& x, double factor, const std::vector<Point>& y) {
   const auto work = [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) x[i] += factor * y[i];
   };
@@ -233,14 +233,15 @@ void Untangler::find_direction() {
   std::array<double, kMemory> factor{};
   for (std::size_t i = 0; i < count; ++i) {
     const Memory& memory = memory_[(remembered_ - 1 - i) % kMemory];
-    factor[i] = dot(memory.way, direction_) / memory.product;
-    add(direction_, -factor[i], memory.turn);
+    factor[i] = chunked_dot(memory.way, direction_) / memory.product;
+    chunked_add(direction_, -factor[i], memory.turn);
   }
   const Memory& last = memory_[(remembered_ - 1) % kMemory];
-  scale(direction_, last.product / dot(last.turn, last.turn));
+  scale(direction_, last.product / chunked_dot(last.turn, last.turn));
   for (std::size_t i = count; i-- > 0;) {
     const Memory& memory = memory_[(remembered_ - 1 - i) % kMemory];
-    add(direction_, factor[i] - dot(memory.turn, direction_) / memory.product, memory.way);
+    chunked_add(direction_, factor[i] - chunked_dot(memory.turn, direction_) / memory.product,
+                memory.way);
   }
   scale(direction_, -1);
 }
@@ -276,9 +277,9 @@ void Untangler::remember() {
   memory.way = direction_;
   scale(memory.way, step_);
   memory.turn = gradient_;
-  add(memory.turn, -1, last_gradient_);
-  memory.product = dot(memory.way, memory.turn);
-  if (memory.product > 1e-10 * dot(memory.turn, memory.turn)) ++remembered_;
+  chunked_add(memory.turn, -1, last_gradient_);
+  memory.product = chunked_dot(memory.way, memory.turn);
+  if (memory.product > 1e-10 * chunked_dot(memory.turn, memory.turn)) ++remembered_;
 }
 
 void Untangler::keep_best() {
@@ -294,9 +295,9 @@ bool Untangler::descend(const Limits& limits, const Proceed& proceed) {
   find_gradient();
   for (unsigned i = 0; i < limits.steps; ++i) {
     if (stopped_ || looks_ >= limits.looks) return false;
-    if (!(dot(gradient_, gradient_) > 0)) return true;
+    if (!(chunked_dot(gradient_, gradient_) > 0)) return true;
     find_direction();
-    const double slope = dot(gradient_, direction_);
+    const double slope = chunked_dot(gradient_, direction_);
     const double before = state_.cost;
     if (!(slope < 0) || !search_line(slope, proceed)) {
       if (remembered_ == 0) return true;

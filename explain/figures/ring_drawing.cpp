@@ -24,7 +24,7 @@ namespace {
 
 constexpr double kRadius = 0.76;  // of the polygon; less for long names
 constexpr double kLeastRadius = 0.5;
-constexpr double kGap = 0.05;  // between its corners and their names
+constexpr double kNameGap = 0.05;  // between its corners and their names
 
 // Below the number of a corner its place in the ring; in units of the number's size.
 constexpr double kPlaceSize = 0.85;
@@ -104,7 +104,7 @@ class PolygonDrawer {
   /// Of the middle of a name from its corner.
   double distance_of_name(std::size_t i) const {
     const Eigen::Vector2d out = shell_.place(i);
-    return kGap * look_.half + half_width(i) * std::abs(out.x()) +
+    return kNameGap * look_.half + half_width(i) * std::abs(out.x()) +
            half_height() * std::abs(out.y());
   }
 

@@ -306,12 +306,6 @@ Projection projection_of(const Sight& sight, const CallStudy& study) {
   return projection;
 }
 
-Quality worst_of(const std::vector<LocalTet>& tets) {
-  Quality worst = std::numeric_limits<Quality>::infinity();
-  for (const LocalTet& tet : tets) worst = std::min(worst, tet.quality);
-  return worst;
-}
-
 struct PanelState {
   std::string name;
   const std::vector<LocalTet>* tets = nullptr;

@@ -38,6 +38,22 @@ T load(const char* from, bool swap) {
   return swap ? byte_swapped(value) : value;
 }
 
+/// The integer of 1, 2, 4 or 8 bytes at `from`. An unsigned one beyond 2^63 becomes negative, which is
+/// refused as the true value would be wherever a number of that size makes no sense.
+inline std::int64_t load_integer(const char* from, std::size_t size, bool is_signed, bool swap) {
+  switch (size) {
+    case 1:
+      return is_signed ? load<std::int8_t>(from, false) : load<std::uint8_t>(from, false);
+    case 2:
+      return is_signed ? load<std::int16_t>(from, swap) : load<std::uint16_t>(from, swap);
+    case 4:
+      return is_signed ? load<std::int32_t>(from, swap)
+                       : std::int64_t{load<std::uint32_t>(from, swap)};
+    default:
+      return load<std::int64_t>(from, swap);
+  }
+}
+
 /// Reads a binary file at positions that the file itself names; no read leaves the file.
 class ByteReader {
  public:

@@ -264,7 +264,7 @@ void set_parts(MeshData& mesh, const std::vector<DataArray>& arrays,
 }
 
 /// Puts `count` numbers of `array`, or as many that say "none", behind those of `joined`.
-void append(DataArray& joined, const DataArray* array, std::size_t count) {
+void append_values(DataArray& joined, const DataArray* array, std::size_t count) {
   std::visit(
       [&](auto& values) {
         using Value = typename std::decay_t<decltype(values)>::value_type;
@@ -405,7 +405,7 @@ std::vector<DataArray> join_cell_arrays(const MeshData& mesh) {
       DataArray& all = joined.emplace_back(DataArray{model.name, model.components, model.values});
       std::visit([](auto& values) { values.clear(); }, all.values);
       for (const Kind& kind : kinds) {
-        append(all, kind.index.find_like(model, which), kind.count * model.components);
+        append_values(all, kind.index.find_like(model, which), kind.count * model.components);
       }
     }
   }

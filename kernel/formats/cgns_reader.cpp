@@ -40,9 +40,9 @@ bool is_of_other_faces(std::int64_t type) {
   return std::find(kTypes.begin(), kTypes.end(), type) != kTypes.end();
 }
 
-class Reader {
+class CgnsReader {
  public:
-  Reader(const InputFile& input, TetPlace* question)
+  CgnsReader(const InputFile& input, TetPlace* question)
       : input_(input), tree_(input), question_(question), sorter_(mesh_) {}
 
   MeshData read() {
@@ -391,7 +391,7 @@ MeshData read_cgns(const std::filesystem::path& file, TetPlace* question) {
                     "CGNS's program adf2hdf makes of it",
                     input.name()));
   }
-  return Reader(input, question).read();
+  return CgnsReader(input, question).read();
 }
 
 }  // namespace tetmend::formats

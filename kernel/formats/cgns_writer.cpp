@@ -48,9 +48,9 @@ struct WrittenSection {
   std::int64_t first = 0;
 };
 
-class Writer {
+class CgnsWriter {
  public:
-  Writer(const std::filesystem::path& file, const MeshView& mesh)
+  CgnsWriter(const std::filesystem::path& file, const MeshView& mesh)
       : out_(file),
         file_(make_hdf5(file.string(), "CGNS")),
         mesh_(mesh),
@@ -354,7 +354,7 @@ class Writer {
 }  // namespace
 
 void write_cgns(const std::filesystem::path& file, const MeshView& mesh) {
-  Writer(file, mesh).write();
+  CgnsWriter(file, mesh).write();
 }
 
 }  // namespace tetmend::formats

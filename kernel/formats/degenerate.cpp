@@ -74,7 +74,7 @@ struct Repeated {
 };
 
 /// The same whatever the order of the corners.
-std::uint64_t hash_of(std::span<const std::uint32_t> v) {
+std::uint64_t hash_of_corners(std::span<const std::uint32_t> v) {
   std::uint64_t sum = 0;
   for (const std::uint64_t i : v) {
     const std::uint64_t mixed = (i + 1) * 0x9E3779B97F4A7C15u;
@@ -169,7 +169,7 @@ std::vector<Repeated> find_repeated(const CornerRows& all, std::size_t points) {
         std::vector<Hashed> found;
         for (std::size_t i = begin; i < end; ++i) {
           if (suspicion.falls_on(i))
-            found.emplace_back(hash_of(all.of(i)), static_cast<std::uint32_t>(i));
+            found.emplace_back(hash_of_corners(all.of(i)), static_cast<std::uint32_t>(i));
         }
         return found;
       });

@@ -8,8 +8,8 @@ namespace tetmend::formats {
 namespace {
 
 template <class Element>
-void append(std::vector<Element>& elements, std::vector<std::int64_t>& numbers,
-            const ElementRow& row, bool with_numbers) {
+void append_element(std::vector<Element>& elements, std::vector<std::int64_t>& numbers,
+                    const ElementRow& row, bool with_numbers) {
   Element& made = elements.emplace_back();
   std::copy_n(row.vertices.begin(), made.vertices.size(), made.vertices.begin());
   made.label = row.label;
@@ -31,11 +31,11 @@ OtherElements& ElementSorter::others(const ElementKind& kind) {
 void ElementSorter::add(const ElementRow& row, bool with_numbers) {
   switch (row.kind->vtk_type) {
     case vtk_tet:
-      return append(mesh_.tets, mesh_.tet_numbers, row, with_numbers);
+      return append_element(mesh_.tets, mesh_.tet_numbers, row, with_numbers);
     case vtk_triangle:
-      return append(mesh_.triangles, mesh_.triangle_numbers, row, with_numbers);
+      return append_element(mesh_.triangles, mesh_.triangle_numbers, row, with_numbers);
     case vtk_edge:
-      return append(mesh_.edges, mesh_.edge_numbers, row, with_numbers);
+      return append_element(mesh_.edges, mesh_.edge_numbers, row, with_numbers);
     default: {
       OtherElements& others = this->others(*row.kind);
       others.vertices.insert(others.vertices.end(), row.vertices.begin(),

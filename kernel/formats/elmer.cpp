@@ -26,13 +26,13 @@
 namespace tetmend::formats {
 namespace {
 
-constexpr std::array<std::string_view, 5> kExtensions = {".header", ".nodes", ".elements",
-                                                         ".boundary", ".names"};
+constexpr std::array<std::string_view, 5> kElmerExtensions = {".header", ".nodes", ".elements",
+                                                              ".boundary", ".names"};
 
 constexpr std::string_view kBodies = "! ----- names for bodies -----\n";
 constexpr std::string_view kBoundaries = "! ----- names for boundaries -----\n";
 
-std::filesystem::path sibling(const std::filesystem::path& header, std::string_view extension) {
+std::filesystem::path file_beside(const std::filesystem::path& header, std::string_view extension) {
   return std::filesystem::path(header).replace_extension(extension);
 }
 
@@ -60,9 +60,9 @@ struct Source {
   TextReader text;
 };
 
-class Reader {
+class ElmerReader {
  public:
-  Reader(std::filesystem::path header, TetPlace* question)
+  ElmerReader(std::filesystem::path header, TetPlace* question)
       : header_(std::move(header)), question_(question), sorter_(mesh_) {}
 
   MeshData read() {
@@ -94,7 +94,7 @@ class Reader {
   }
 
   void read_nodes() {
-    Source source(sibling(header_, ".nodes"));
+    Source source(file_beside(header_, ".nodes"));
     source.check_count(counts_[0], "nodes", std::string_view("1 -1 0 0 0\n").size());
     if (counts_[0] > kMostVertices) source.text.fail("the nodes are too many");
     mesh_.points.resize(counts_[0]);
@@ -125,7 +125,7 @@ class Reader {
   }
 
   void read_elements(std::string_view extension, std::size_t count, bool are_volumes) {
-    Source source(sibling(header_, extension));
+    Source source(file_beside(header_, extension));
     source.check_count(
         count, "elements",
         std::string_view(are_volumes ? "1 1 504 1 2 3 4\n" : "1 1 0 0 202 1 2\n").size());
@@ -189,7 +189,7 @@ class Reader {
   }
 
   void read_names() {
-    const std::filesystem::path file = sibling(header_, ".names");
+    const std::filesystem::path file = file_beside(header_, ".names");
     std::error_code ignored;
     if (!std::filesystem::exists(file, ignored)) return;
     Source source(file);
@@ -274,17 +274,17 @@ int elmer_type(int vtk_type) {
   return 0;
 }
 
-class Writer {
+class ElmerWriter {
  public:
-  Writer(const std::filesystem::path& header, const MeshView& mesh)
+  ElmerWriter(const std::filesystem::path& header, const MeshView& mesh)
       : header_(header),
-        nodes_(sibling(header, ".nodes")),
-        elements_(sibling(header, ".elements")),
-        boundary_(sibling(header, ".boundary")),
+        nodes_(file_beside(header, ".nodes")),
+        elements_(file_beside(header, ".elements")),
+        boundary_(file_beside(header, ".boundary")),
         mesh_(mesh),
         lists_(mesh) {
     std::error_code ignored;
-    const std::filesystem::path names = sibling(header, ".names");
+    const std::filesystem::path names = file_beside(header, ".names");
     const bool has_groups = mesh.data() != nullptr && !mesh.data()->groups.empty();
     if (has_groups || std::filesystem::exists(names, ignored)) names_.emplace(names);
   }
@@ -409,17 +409,17 @@ class Writer {
 }  // namespace
 
 MeshData read_elmer(const std::filesystem::path& header, TetPlace* question) {
-  return Reader(header, question).read();
+  return ElmerReader(header, question).read();
 }
 
 void write_elmer(const std::filesystem::path& header, const MeshView& mesh) {
-  Writer(header, mesh).write();
+  ElmerWriter(header, mesh).write();
 }
 
 std::vector<std::filesystem::path> elmer_files(const std::filesystem::path& header) {
   std::vector<std::filesystem::path> files = {header};
-  for (const std::string_view extension : kExtensions) {
-    const std::filesystem::path file = sibling(header, extension);
+  for (const std::string_view extension : kElmerExtensions) {
+    const std::filesystem::path file = file_beside(header, extension);
     if (file != header) files.push_back(file);
   }
   return files;

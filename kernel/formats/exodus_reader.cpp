@@ -22,9 +22,9 @@
 namespace tetmend::formats {
 namespace {
 
-class Reader {
+class ExodusReader {
  public:
-  Reader(const InputFile& input, TetPlace* question)
+  ExodusReader(const InputFile& input, TetPlace* question)
       : file_(open_netcdf(input, "Exodus")), input_(input), question_(question), sorter_(mesh_) {}
 
   MeshData read() {
@@ -385,7 +385,7 @@ class Reader {
 
 MeshData read_exodus(const std::filesystem::path& file, TetPlace* question) {
   const InputFile input(file);
-  return Reader(input, question).read();
+  return ExodusReader(input, question).read();
 }
 
 }  // namespace tetmend::formats

@@ -27,9 +27,9 @@ namespace {
 constexpr std::array<std::int64_t, 1> kMostOfExodus = {INT32_MAX};
 constexpr double kMostWhole = 9007199254740992;  // 2^53, up to which doubles hold all integers
 
-class Writer {
+class ExodusWriter {
  public:
-  Writer(const std::filesystem::path& file, const MeshView& mesh)
+  ExodusWriter(const std::filesystem::path& file, const MeshView& mesh)
       : out_(file), mesh_(mesh), lists_(mesh), plan_(mesh, lists_) {}
 
   void write() {
@@ -347,7 +347,7 @@ std::vector<std::string> not_in_exodus(const std::filesystem::path&, const MeshD
 }
 
 void write_exodus(const std::filesystem::path& file, const MeshView& mesh) {
-  Writer(file, mesh).write();
+  ExodusWriter(file, mesh).write();
 }
 
 }  // namespace tetmend::formats

@@ -25,7 +25,7 @@ constexpr std::array<FaceCorners, 5> kPyramidFaces = {{{0, 3, 2, 1},
                                                        {2, 3, 4, kNoCorner},
                                                        {3, 0, 4, kNoCorner}}};
 
-std::span<const FaceCorners> faces_of(const ElementKind& kind) {
+std::span<const FaceCorners> faces_of_kind(const ElementKind& kind) {
   switch (kind.corners) {
     case 4:
       return kTetFaces;
@@ -67,9 +67,9 @@ Key corners_of(const ElementList& list, std::size_t i) {
   return {v[0], v[1], v[2], list.kind.corners == 4 ? v[3] : kNoElement};
 }
 
-class Finder {
+class FaceSideFinder {
  public:
-  Finder(const MeshView& mesh, const ElementLists& lists)
+  FaceSideFinder(const MeshView& mesh, const ElementLists& lists)
       : mesh_(mesh), surfaces_(lists.of_dimension(2)), volumes_(lists.of_dimension(3)) {}
 
   std::vector<std::vector<FaceSides>> run() {
@@ -110,7 +110,7 @@ class Finder {
 
   void look_around(const ElementList& list, std::size_t i, std::uint32_t number) {
     const auto v = list.vertices(i);
-    for (const FaceCorners& face : faces_of(list.kind)) {
+    for (const FaceCorners& face : faces_of_kind(list.kind)) {
       Key corners{};
       for (std::size_t k = 0; k < 4; ++k) {
         corners[k] = face[k] == kNoCorner ? kNoElement : v[face[k]];
@@ -139,7 +139,7 @@ class Finder {
 
 std::vector<std::vector<FaceSides>> find_face_sides(const MeshView& mesh,
                                                     const ElementLists& lists) {
-  return Finder(mesh, lists).run();
+  return FaceSideFinder(mesh, lists).run();
 }
 
 }  // namespace tetmend::formats

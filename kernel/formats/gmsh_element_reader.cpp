@@ -18,7 +18,7 @@
 namespace tetmend::formats {
 namespace {
 
-constexpr std::string_view kNumber = "the number of an element";
+constexpr std::string_view kElementNumber = "the number of an element";
 constexpr std::string_view kNode = "the number of a node";
 
 /// Elements of one type are counted in 32 bits.
@@ -139,7 +139,7 @@ void GmshElementReader::read_block(int type, std::size_t count, Label label, Lab
   std::fill(rows.parts.begin() + static_cast<std::ptrdiff_t>(first), rows.parts.end(), part);
   if (!source_.binary()) {
     return source_.rows(count, [&](TextReader& line, std::size_t i) {
-      rows.tags[first + i] = line.integer(kNumber, 0, INT64_MAX);
+      rows.tags[first + i] = line.integer(kElementNumber, 0, INT64_MAX);
       const char* place = line.last_word();
       std::uint32_t* v = rows.vertices.data() + (first + i) * width;
       for (std::size_t k = 0; k < width; ++k) v[k] = vertex(line);
@@ -149,7 +149,7 @@ void GmshElementReader::read_block(int type, std::size_t count, Label label, Lab
   const std::size_t row_size = (1 + width) * source_.wide_size();
   const char* row = text.bytes(count * row_size, "the elements of a block");
   for (std::size_t i = first; i < first + count; ++i, row += row_size) {
-    rows.tags[i] = source_.wide_at(row, kNumber);
+    rows.tags[i] = source_.wide_at(row, kElementNumber);
     std::uint32_t* v = rows.vertices.data() + i * width;
     for (std::size_t k = 0; k < width; ++k) {
       const char* at = row + (k + 1) * source_.wide_size();
@@ -184,7 +184,7 @@ void GmshElementReader::read_text_2(std::size_t count) {
 
 GmshElementReader::Row GmshElementReader::read_row(TextReader& text) const {
   Row row{};
-  row.tag = text.integer(kNumber, 0, INT64_MAX);
+  row.tag = text.integer(kElementNumber, 0, INT64_MAX);
   row.place = text.last_word();
   const std::int64_t type = text.integer("the type of an element", INT32_MIN, INT32_MAX);
   if (type < 1 || type >= kGmshTypes) {
@@ -250,7 +250,7 @@ void GmshElementReader::read_run(int type, std::size_t count, std::size_t tags) 
     return load<Label>(row + (1 + k) * kSize, source_.swap());
   };
   for (std::size_t i = first; i < first + count; ++i, row += row_size) {
-    rows.tags[i] = source_.checked<std::int32_t>(row, kNumber, 0, INT32_MAX);
+    rows.tags[i] = source_.checked<std::int32_t>(row, kElementNumber, 0, INT32_MAX);
     if (tags > 0) rows.labels[i] = tag(0);
     if (tags > 1) rows.parts[i] = tag(1);
     for (std::size_t k = 2; k < tags; ++k) partitioned_ |= tag(k) != 0;

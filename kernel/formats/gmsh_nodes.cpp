@@ -16,7 +16,7 @@
 namespace tetmend::formats {
 namespace {
 
-constexpr std::string_view kNumber = "the number of a node";
+constexpr std::string_view kNodeNumber = "the number of a node";
 constexpr std::string_view kCoordinate = "a coordinate of a node";
 
 }  // namespace
@@ -38,7 +38,7 @@ void GmshNodes::read_parametric_2() {
   source_.begin_numbers();
   blocks_.push_back({0, text.position(), 0, 0});
   for (std::size_t i = 0; i < count; ++i) {
-    numbers_.push_back(source_.integer(kNumber, 0, INT32_MAX));
+    numbers_.push_back(source_.integer(kNodeNumber, 0, INT32_MAX));
     Point& point = points.emplace_back();
     for (int axis = 0; axis < 3; ++axis) point[axis] = source_.real(kCoordinate);
     const std::int64_t dimension = source_.integer("the dimension of an entity", 0, 3);
@@ -63,7 +63,7 @@ void GmshNodes::read_2(bool is_parametric) {
     const char* row = text.bytes(count * kRowSize, "the nodes");
     blocks_.push_back({0, row, kRowSize, 0});
     for (std::size_t i = 0; i < count; ++i, row += kRowSize) {
-      numbers_[i] = source_.checked<std::int32_t>(row, kNumber, 0, INT32_MAX);
+      numbers_[i] = source_.checked<std::int32_t>(row, kNodeNumber, 0, INT32_MAX);
       for (std::size_t axis = 0; axis < 3; ++axis) {
         points[i][static_cast<Eigen::Index>(axis)] =
             source_.finite(row + sizeof(std::int32_t) + axis * sizeof(double), kCoordinate);
@@ -72,7 +72,7 @@ void GmshNodes::read_2(bool is_parametric) {
   } else {
     blocks_.push_back({0, text.position(), 0, 4});
     source_.rows(count, [this](TextReader& part, std::size_t i) {
-      numbers_[i] = part.integer(kNumber, 0, INT64_MAX);
+      numbers_[i] = part.integer(kNodeNumber, 0, INT64_MAX);
       for (int axis = 0; axis < 3; ++axis) points[i][axis] = part.real(kCoordinate);
     });
   }
@@ -118,12 +118,12 @@ void GmshNodes::read_tags(std::size_t first, std::size_t count) {
   blocks_.push_back({first, text.position(), source_.wide_size(), 1});
   if (!source_.binary()) {
     return source_.rows(count, [&](TextReader& part, std::size_t i) {
-      numbers_[first + i] = part.integer(kNumber, 0, INT64_MAX);
+      numbers_[first + i] = part.integer(kNodeNumber, 0, INT64_MAX);
     });
   }
   const char* at = text.bytes(count * source_.wide_size(), "the numbers of nodes");
   for (std::size_t i = 0; i < count; ++i, at += source_.wide_size()) {
-    numbers_[first + i] = source_.wide_at(at, kNumber);
+    numbers_[first + i] = source_.wide_at(at, kNodeNumber);
   }
 }
 

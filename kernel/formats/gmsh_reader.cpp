@@ -30,10 +30,10 @@
 namespace tetmend::formats {
 namespace {
 
-class Reader {
+class GmshReader {
  public:
   /// @param is_part one of several files of a mesh
-  Reader(const InputFile& file, TetPlace* question, bool is_part)
+  GmshReader(const InputFile& file, TetPlace* question, bool is_part)
       : source_(file),
         text_(source_.text()),
         question_(question),
@@ -436,19 +436,19 @@ class Reader {
 
 MeshData read_gmsh(const std::filesystem::path& file, TetPlace* question) {
   const InputFile input(file);
-  return Reader(input, question, false).read();
+  return GmshReader(input, question, false).read();
 }
 
 MeshData read_gmsh_part(const std::filesystem::path& file) {
   const InputFile input(file);
-  MeshData part = Reader(input, nullptr, true).read();
+  MeshData part = GmshReader(input, nullptr, true).read();
   drop_degenerate(part);
   return part;
 }
 
 MeshData read_gmsh_head(const std::string& bytes) {
   const InputFile input({}, bytes);
-  return Reader(input, nullptr, true).read();
+  return GmshReader(input, nullptr, true).read();
 }
 
 }  // namespace tetmend::formats

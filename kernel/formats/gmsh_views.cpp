@@ -21,8 +21,8 @@
 namespace tetmend::formats {
 namespace {
 
-void put(std::vector<double>& values, std::vector<bool>& given, std::size_t& missing,
-         std::size_t row, const std::vector<double>& from) {
+void put_row(std::vector<double>& values, std::vector<bool>& given, std::size_t& missing,
+             std::size_t row, const std::vector<double>& from) {
   std::copy(from.begin(), from.end(),
             values.begin() + static_cast<std::ptrdiff_t>(row * from.size()));
   if (!given[row]) --missing;
@@ -161,7 +161,7 @@ void GmshViews::add_point_data(const View& view, const GmshNodes& nodes, MeshDat
       source_.text().fail_at(
           place, fmt::format("'{}' is not the number of a node: expected one of $Nodes", tag));
     }
-    put(values, given, missing, node, row);
+    put_row(values, given, missing, node, row);
   });
   if (missing > 0) {
     add_note(fmt::format("view {} is not kept, for it has no values for some nodes",
@@ -196,7 +196,7 @@ void GmshViews::add_element_data(const View& view, const std::array<GmshTags, 3>
     if (view.count < sizes[k]) return void(kind.given.resize(1));
     kind.values.resize(sizes[k] * view.components);
     kind.given.resize(sizes[k]);
-    put(kind.values, kind.given, kind.missing, element, row);
+    put_row(kind.values, kind.given, kind.missing, element, row);
   });
   for (std::size_t k = 0; k < 3; ++k) {
     if (kinds[k].given.empty()) continue;

@@ -42,15 +42,15 @@ struct Grouped {
   std::vector<std::uint32_t> order;
 };
 
-double value_of(const DataArray& array, std::size_t i) {
+double value_at(const DataArray& array, std::size_t i) {
   return std::visit([i](const auto& values) { return static_cast<double>(values[i]); },
                     array.values);
 }
 
-class Writer : private GmshSections {
+class GmshWriter : private GmshSections {
  public:
-  Writer(OutputFile& out, std::string name, const MeshView& mesh, GmshPlan& plan, bool is_4,
-         bool binary, bool is_part = false)
+  GmshWriter(OutputFile& out, std::string name, const MeshView& mesh, GmshPlan& plan, bool is_4,
+             bool binary, bool is_part = false)
       : GmshSections(out, name, is_4, binary),
         out_(out),
         name_(std::move(name)),
@@ -336,7 +336,7 @@ class Writer : private GmshSections {
       GmshRow numbers(buffer, binary_);
       numbers.integer(number(i));
       for (std::size_t k = 0; k < array.components; ++k) {
-        numbers.real(value_of(array, i * array.components + k));
+        numbers.real(value_at(array, i * array.components + k));
       }
       numbers.end();
     });
@@ -396,7 +396,7 @@ void write_gmsh(const std::filesystem::path& file, const MeshView& mesh) {
   const bool binary = variant != "2.2 ASCII" && variant != "4.1 ASCII";
   OutputFile out(file);
   GmshPlan plan(mesh);
-  Writer(out, file.string(), mesh, plan, !is_2, binary).write();
+  GmshWriter(out, file.string(), mesh, plan, !is_2, binary).write();
   out.commit(mesh.companions());
 }
 
@@ -415,7 +415,7 @@ void write_gmsh_part(const std::filesystem::path& file, const MeshData& mesh) {
                    : kind.type == gmsh_triangle ? mesh.triangle_numbers
                                                 : mesh.edge_numbers;
   }
-  Writer(out, file.string(), view, plan, true, true, true).write();
+  GmshWriter(out, file.string(), view, plan, true, true, true).write();
   out.commit();
 }
 

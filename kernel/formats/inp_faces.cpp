@@ -14,6 +14,7 @@
 
 #include "kernel/formats/harmless_notes.h"
 #include "kernel/formats/inp_fields.h"
+#include "kernel/formats/word_list.h"
 
 namespace tetmend::formats {
 namespace {
@@ -23,11 +24,6 @@ constexpr std::array<std::string_view, 6> kLoads = {"DLOAD",      "DFLUX",     "
 // Their first field may be the number of an element.
 constexpr std::array<std::string_view, 4> kOfElements = {"DISTRIBUTION", "INITIAL CONDITIONS",
                                                          "MODEL CHANGE", "ELEMENT MATRIX OUTPUT"};
-
-template <std::size_t N>
-bool contains(const std::array<std::string_view, N>& names, std::string_view word) {
-  return std::find(names.begin(), names.end(), word) != names.end();
-}
 
 bool is_tet(const InpMesh& mesh, std::uint32_t element) {
   const int type = mesh.block_of(element).type.vtk_type;
@@ -50,9 +46,9 @@ FaceLabel to_face(std::string_view text) {
   return {text.substr(0, digit), static_cast<std::size_t>(text[digit] - '0'), suffix};
 }
 
-class Reader {
+class InpFacesReader {
  public:
-  Reader(const InpLines& lines, const InpMesh& mesh, InpSets& sets)
+  InpFacesReader(const InpLines& lines, const InpMesh& mesh, InpSets& sets)
       : lines_(lines), mesh_(mesh), sets_(sets) {
     find_other_instances();
   }
@@ -310,7 +306,7 @@ class Reader {
 }  // namespace
 
 InpFaces read_inp_faces(const InpLines& lines, const InpMesh& mesh, InpSets& sets) {
-  Reader reader(lines, mesh, sets);
+  InpFacesReader reader(lines, mesh, sets);
   for (const InpBlock& block : lines.blocks) reader.read(block);
   return reader.take();
 }

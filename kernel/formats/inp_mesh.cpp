@@ -25,9 +25,9 @@ constexpr std::array<std::string_view, 10> kGenerators = {"NGEN",
                                                           "SUBSTRUCTURE GENERATE",
                                                           "SYMMETRIC MODEL GENERATION"};
 
-class Reader {
+class InpMeshReader {
  public:
-  Reader(const InpLines& lines, TetPlace* question) : lines_(lines), question_(question) {}
+  InpMeshReader(const InpLines& lines, TetPlace* question) : lines_(lines), question_(question) {}
 
   InpMesh run() {
     for (const InpBlock& block : lines_.blocks) {
@@ -224,7 +224,7 @@ bool is_mesh_block(const InpBlock& block, std::string_view keyword) {
 }
 
 InpMesh read_inp_mesh(const InpLines& lines, TetPlace* question) {
-  return Reader(lines, question).run();
+  return InpMeshReader(lines, question).run();
 }
 
 }  // namespace tetmend::formats

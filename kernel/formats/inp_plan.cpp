@@ -34,15 +34,15 @@ InpKind kind_of(int vtk_type, int dimension, std::span<const Element> elements,
   return kind;
 }
 
-struct Corners {
+struct SortedCorners {
   std::array<std::uint32_t, 3> sorted;
   bool is_odd = false;
   std::uint32_t kind = 0;
   std::uint32_t triangle = 0;
 };
 
-Corners corners_of(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
-  Corners result{{a, b, c}, false, 0, 0};
+SortedCorners sorted_corners(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+  SortedCorners result{{a, b, c}, false, 0, 0};
   auto& v = result.sorted;
   const auto order = [&](std::size_t i, std::size_t j) {
     if (v[i] <= v[j]) return;
@@ -147,14 +147,14 @@ void InpPlan::add_kinds() {
 }
 
 void InpPlan::find_owners() {
-  std::vector<Corners> wanted;
+  std::vector<SortedCorners> wanted;
   std::vector<char> flags(mesh_.point_count());
   for (std::size_t k = 0; k < kinds.size(); ++k) {
     if (!kinds[k].is_triangle()) continue;
     owners_[k].resize(kinds[k].count);
     for (std::size_t i = 0; i < kinds[k].count; ++i) {
       const std::uint32_t* v = kinds[k].of(i);
-      Corners corners = corners_of(v[0], v[1], v[2]);
+      SortedCorners corners = sorted_corners(v[0], v[1], v[2]);
       corners.kind = static_cast<std::uint32_t>(k);
       corners.triangle = static_cast<std::uint32_t>(i);
       wanted.push_back(corners);
@@ -162,15 +162,17 @@ void InpPlan::find_owners() {
     }
   }
   if (wanted.empty()) return;
-  const auto less = [](const Corners& a, const Corners& b) { return a.sorted < b.sorted; };
+  const auto less = [](const SortedCorners& a, const SortedCorners& b) {
+    return a.sorted < b.sorted;
+  };
   std::stable_sort(wanted.begin(), wanted.end(), less);
   // Triangles with the same corners share a place, by the sense that they list these in.
   std::vector<std::array<std::uint32_t, 3>> places;
-  for (const Corners& corners : wanted) {
+  for (const SortedCorners& corners : wanted) {
     if (places.empty() || places.back() != corners.sorted) places.push_back(corners.sorted);
   }
   std::vector<std::array<Owner, 2>> found(places.size());
-  const auto place_of = [&](const Corners& corners) {
+  const auto place_of = [&](const SortedCorners& corners) {
     const auto at = std::lower_bound(places.begin(), places.end(), corners.sorted);
     const bool is_there = at != places.end() && *at == corners.sorted;
     return is_there ? &found[static_cast<std::size_t>(at - places.begin())] : nullptr;
@@ -184,7 +186,7 @@ void InpPlan::find_owners() {
         const auto& c = kInpTetFaces[static_cast<std::size_t>(f)];
         if (flags[v[c[0]]] + flags[v[c[1]]] + flags[v[c[2]]] < 3) continue;
         // Turned round: seen from outside.
-        const Corners face = corners_of(v[c[0]], v[c[2]], v[c[1]]);
+        const SortedCorners face = sorted_corners(v[c[0]], v[c[2]], v[c[1]]);
         std::array<Owner, 2>* place = place_of(face);
         if (place == nullptr) continue;
         for (const bool is_odd : {false, true}) {
@@ -194,7 +196,7 @@ void InpPlan::find_owners() {
       }
     }
   }
-  for (const Corners& corners : wanted) {
+  for (const SortedCorners& corners : wanted) {
     owners_[corners.kind][corners.triangle] = (*place_of(corners))[corners.is_odd ? 1 : 0];
   }
 }

@@ -48,9 +48,9 @@ struct TriangleHash {
   }
 };
 
-class Reader {
+class InpReader {
  public:
-  Reader(const std::filesystem::path& file, TetPlace* question)
+  InpReader(const std::filesystem::path& file, TetPlace* question)
       : file_(file),
         lines_(file),
         mesh_(read_inp_mesh(lines_, question)),
@@ -454,7 +454,7 @@ class Reader {
 }  // namespace
 
 MeshData read_inp(const std::filesystem::path& file, TetPlace* question) {
-  return Reader(file, question).run();
+  return InpReader(file, question).run();
 }
 
 std::vector<std::filesystem::path> inp_files(const std::filesystem::path& deck) {

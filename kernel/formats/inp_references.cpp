@@ -14,6 +14,7 @@
 
 #include "kernel/formats/field_pattern.h"
 #include "kernel/formats/inp_fields.h"
+#include "kernel/formats/word_list.h"
 
 namespace tetmend::formats {
 namespace {
@@ -212,11 +213,6 @@ constexpr std::array kConditionsOfElements = std::to_array<std::string_view>(
     {"DAMAGE INITIATION", "HARDENING", "INITIAL GAP", "PLASTIC STRAIN", "REF COORDINATE",
      "RELATIVE DENSITY", "SOLUTION", "SPECIFIC ENERGY", "STRESS", "VOLUME FRACTION"});
 
-template <std::size_t N>
-bool contains(const std::array<std::string_view, N>& names, std::string_view word) {
-  return std::find(names.begin(), names.end(), word) != names.end();
-}
-
 /// What the data lines of a block say of nodes.
 struct NodesOfBlock {
   FieldPattern pattern{""};
@@ -258,9 +254,9 @@ NodesOfBlock nodes_of(const InpBlock& block) {
   return {FieldPattern("(p)"), false};
 }
 
-class Finder {
+class InpReferenceFinder {
  public:
-  Finder(const InpLines& lines, const InpMesh& mesh) : lines_(lines), mesh_(mesh) {}
+  InpReferenceFinder(const InpLines& lines, const InpMesh& mesh) : lines_(lines), mesh_(mesh) {}
 
   void look_at(const InpBlock& block) {
     block_ = &block;
@@ -363,7 +359,7 @@ class Finder {
 
 InpReferences find_references(const InpLines& lines, const std::vector<const InpBlock*>& kept,
                               const InpMesh& mesh) {
-  Finder finder(lines, mesh);
+  InpReferenceFinder finder(lines, mesh);
   for (const InpBlock* block : kept) finder.look_at(*block);
   return finder.take();
 }

@@ -27,7 +27,7 @@ namespace {
 constexpr std::size_t kMostCharacters = 20;
 
 /// "-1.25e-7" in as few characters as possible, with `digits` behind the point.
-std::string short_form(double value, int digits, bool with_point) {
+std::string short_scientific(double value, int digits, bool with_point) {
   std::string text = fmt::format("{:.{}e}", value, digits);
   const std::size_t e = text.find('e');
   std::string mantissa = text.substr(0, e);
@@ -44,7 +44,7 @@ std::string in_room(double value) {
   constexpr int kAllDigits = 16;
   for (int digits = kAllDigits;; --digits) {
     for (const bool with_point : {true, false}) {
-      std::string text = short_form(value, digits, with_point);
+      std::string text = short_scientific(value, digits, with_point);
       // The greatest numbers must not be rounded up.
       if (text.size() <= kMostCharacters && std::isfinite(std::strtod(text.c_str(), nullptr))) {
         return text;
@@ -62,9 +62,9 @@ std::string_view real_text(double value, RealText& memory, std::string& long_mem
   return long_memory = in_room(value);
 }
 
-class Writer {
+class InpWriter {
  public:
-  Writer(const std::filesystem::path& file, const MeshView& mesh)
+  InpWriter(const std::filesystem::path& file, const MeshView& mesh)
       : mesh_(mesh), plan_(mesh), out_(file) {}
 
   void run() {
@@ -233,7 +233,7 @@ class Writer {
 }  // namespace
 
 void write_inp(const std::filesystem::path& file, const MeshView& mesh) {
-  Writer(file, mesh).run();
+  InpWriter(file, mesh).run();
 }
 
 std::vector<std::string> not_in_inp(const std::filesystem::path& file, const MeshData& mesh) {

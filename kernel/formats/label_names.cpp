@@ -13,8 +13,8 @@ namespace {
 
 /// Labels of the members of a group, with how many there are of each.
 template <class Element>
-std::map<Label, std::size_t> labels_of(const std::vector<Element>& elements,
-                                       const std::vector<std::uint32_t>& members) {
+std::map<Label, std::size_t> label_counts(const std::vector<Element>& elements,
+                                          const std::vector<std::uint32_t>& members) {
   std::map<Label, std::size_t> counts;
   for (const std::uint32_t i : members) ++counts[elements[i].label];
   return counts;
@@ -62,9 +62,9 @@ NamedLabel LabelNames::label_of(const Group& group) const {
   const auto& counts = counts_[static_cast<std::size_t>(group.dimension)];
   if (group.parts.empty() && group.members.empty()) return {true, group.number};
   if (!group.members.empty()) {
-    const auto labels = group.dimension == 3   ? labels_of(mesh_.tets, group.members)
-                        : group.dimension == 2 ? labels_of(mesh_.triangles, group.members)
-                                               : labels_of(mesh_.edges, group.members);
+    const auto labels = group.dimension == 3   ? label_counts(mesh_.tets, group.members)
+                        : group.dimension == 2 ? label_counts(mesh_.triangles, group.members)
+                                               : label_counts(mesh_.edges, group.members);
     if (labels.size() != 1) return {};
     const auto [label, count] = *labels.begin();
     return {totals_[static_cast<std::size_t>(group.dimension)].at(label) == count, label};

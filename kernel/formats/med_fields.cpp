@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::string_view kWholeMesh = "MED_NO_PROFILE_INTERNAL";
 
-std::string trimmed_text(std::string text) {
+std::string without_padding(std::string text) {
   text.resize(text.find_last_not_of(' ') + 1);
   return text;
 }
@@ -30,7 +30,7 @@ class MedFieldReader {
     if (!file_.has("CHA")) return;
     for (const std::string& name : file_.names("CHA")) {
       const std::string path = "CHA/" + name;
-      if (trimmed_text(file_.text(path, "MAI")) != name_) {
+      if (without_padding(file_.text(path, "MAI")) != name_) {
         mesh_.notes.push_back(
             fmt::format("the field {} is not kept: it is of another mesh", in_quotes(name)));
         continue;
@@ -57,7 +57,7 @@ class MedFieldReader {
                                file_.real(path, "PDT")),
                    name);
     for (const std::string& support : file_.names(path)) {
-      const std::string profile = trimmed_text(file_.text(path + "/" + support, "PFL"));
+      const std::string profile = without_padding(file_.text(path + "/" + support, "PFL"));
       const std::string values = path + "/" + support + "/" + profile;
       const auto block = std::find_if(blocks_.begin(), blocks_.end(), [&](const MedBlock& each) {
         return "MAI." + std::string(each.type->name) == support;

@@ -30,9 +30,9 @@ namespace {
 /// Types that are not in kMedTypes, and that a mesh cannot do without.
 constexpr std::array<std::string_view, 5> kOtherVolumes = {"P18", "H27", "OCT", "POE", "O12"};
 
-class Reader {
+class MedReader {
  public:
-  Reader(const InputFile& input, TetPlace* question)
+  MedReader(const InputFile& input, TetPlace* question)
       : input_(input), file_(open_hdf5(input, "MED")), question_(question), sorter_(mesh_) {}
 
   MeshData read() {
@@ -288,7 +288,7 @@ class Reader {
 
 MeshData read_med(const std::filesystem::path& file, TetPlace* question) {
   const InputFile input(file);
-  return Reader(input, question).read();
+  return MedReader(input, question).read();
 }
 
 }  // namespace tetmend::formats

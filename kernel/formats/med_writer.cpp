@@ -33,9 +33,9 @@ constexpr std::int32_t kMedInteger64 = 26;
 
 constexpr std::array<std::int64_t, 2> kMedLimits = {INT32_MAX, INT64_MAX};
 
-class Writer {
+class MedWriter {
  public:
-  Writer(const std::filesystem::path& file, const MeshView& mesh)
+  MedWriter(const std::filesystem::path& file, const MeshView& mesh)
       : out_(file),
         file_(make_hdf5(file.string(), "MED")),
         mesh_(mesh),
@@ -326,7 +326,7 @@ class Writer {
 }  // namespace
 
 void write_med(const std::filesystem::path& file, const MeshView& mesh) {
-  Writer(file, mesh).write();
+  MedWriter(file, mesh).write();
 }
 
 }  // namespace tetmend::formats

@@ -23,6 +23,7 @@
 #include "kernel/formats/output_rows.h"
 #include "kernel/formats/text_reader.h"
 #include "kernel/formats/text_rows.h"
+#include "kernel/formats/word_list.h"
 
 namespace tetmend::formats {
 namespace {
@@ -93,11 +94,6 @@ constexpr std::array<std::string_view, 52> kPassedSections = {
     "Geometry",
     "Identifier"};
 
-template <std::size_t N>
-bool contains(const std::array<std::string_view, N>& names, std::string_view word) {
-  return std::find(names.begin(), names.end(), word) != names.end();
-}
-
 const MeditMark* find_mark(std::string_view word) {
   const auto* found = std::find_if(kMeditMarks.begin(), kMeditMarks.end(),
                                    [&](const MeditMark& mark) { return mark.section == word; });
@@ -120,9 +116,10 @@ bool is_number_word(std::string_view word) {
   return lower == "nan" || lower == "inf" || !std::isalpha(static_cast<unsigned char>(word[0]));
 }
 
-class Reader {
+class MeditAsciiReader {
  public:
-  Reader(const InputFile& file, TetPlace* question) : text_(file, '#'), question_(question) {}
+  MeditAsciiReader(const InputFile& file, TetPlace* question)
+      : text_(file, '#'), question_(question) {}
 
   MeshData read() {
     read_header();
@@ -440,7 +437,8 @@ void write_vectors(OutputFile& out, const MeshView& mesh, const MeditVectors& ki
 }
 
 template <class Element>
-void write_elements(OutputFile& out, std::string_view name, std::span<const Element> elements) {
+void write_medit_elements(OutputFile& out, std::string_view name,
+                          std::span<const Element> elements) {
   if (elements.empty()) return;
   begin_section(out, name, elements.size());
   put_rows(out, elements.size(),
@@ -452,7 +450,7 @@ void write_elements(OutputFile& out, std::string_view name, std::span<const Elem
 MeshData read_medit_ascii(const std::filesystem::path& file, TetPlace* question) {
   const InputFile input(file);
   if (looks_like_mfem(input)) return read_mfem(input, question);
-  return Reader(input, question).read();
+  return MeditAsciiReader(input, question).read();
 }
 
 void write_medit_ascii(const std::filesystem::path& file, const MeshView& mesh) {
@@ -462,8 +460,8 @@ void write_medit_ascii(const std::filesystem::path& file, const MeshView& mesh) 
   put_rows(out, mesh.point_count(), [&](std::size_t i, OutputBuffer& buffer) {
     write_vertex(buffer, mesh.point(i), mesh.point_label(i));
   });
-  write_elements(out, "Edges", mesh.edges());
-  write_elements(out, "Triangles", mesh.triangles());
+  write_medit_elements(out, "Edges", mesh.edges());
+  write_medit_elements(out, "Triangles", mesh.triangles());
   if (!mesh.required_vertices().empty()) {
     begin_section(out, "RequiredVertices", mesh.required_vertices().size());
     for (const std::uint32_t vertex : mesh.required_vertices()) {

@@ -30,8 +30,6 @@
 namespace tetmend::formats {
 namespace {
 
-constexpr std::int32_t kNewestVersion = 4;
-
 enum Keyword : std::int32_t {
   dimension = 3,
   vertices = 4,
@@ -43,12 +41,13 @@ enum Keyword : std::int32_t {
 };
 
 // Volume elements that the library cannot use, linear and of higher order.
-constexpr std::array<std::int32_t, 12> kForeignVolumes = {33, 46, 86,  87,  96,  97,
-                                                          98, 99, 100, 101, 102, 103};
+constexpr std::array<std::int32_t, 12> kForeignVolumeCodes = {33, 46, 86,  87,  96,  97,
+                                                              98, 99, 100, 101, 102, 103};
 
-class Reader {
+class MeditBinaryReader {
  public:
-  Reader(const InputFile& file, TetPlace* question) : bytes_(file), question_(question) {}
+  MeditBinaryReader(const InputFile& file, TetPlace* question)
+      : bytes_(file), question_(question) {}
 
   MeshData read() {
     read_header();
@@ -79,10 +78,10 @@ class Reader {
     }
     bytes_.set_swap(cookie != 1);
     version_ = bytes_.number<std::int32_t>("the version of the format");
-    if (version_ < 1 || version_ > kNewestVersion) {
+    if (version_ < 1 || version_ > kNewestMeditVersion) {
       bytes_.fail_at(bytes_.position() - sizeof version_,
                      fmt::format("version {} of the format is unknown: expected 1 to {}", version_,
-                                 kNewestVersion));
+                                 kNewestMeditVersion));
     }
   }
 
@@ -132,8 +131,8 @@ class Reader {
     read_dimension();
     for (const Section& section : sections_) {
       const auto keyword = section.keyword;
-      if (std::find(kForeignVolumes.begin(), kForeignVolumes.end(), keyword) !=
-          kForeignVolumes.end()) {
+      if (std::find(kForeignVolumeCodes.begin(), kForeignVolumeCodes.end(), keyword) !=
+          kForeignVolumeCodes.end()) {
         bytes_.seek(section.begin);
         if (bytes_.number<Integer>("a count") > 0) {
           bytes_.fail_at(section.begin,
@@ -384,9 +383,9 @@ class Reader {
   MeshData mesh_;
 };
 
-class Writer {
+class MeditBinaryWriter {
  public:
-  Writer(OutputFile& out, const MeshView& mesh) : out_(out), mesh_(mesh) {}
+  MeditBinaryWriter(OutputFile& out, const MeshView& mesh) : out_(out), mesh_(mesh) {}
 
   void write() {
     version_ = 4;
@@ -544,17 +543,17 @@ bool looks_like_medit_binary(std::string_view bytes) {
   const auto cookie = load<std::int32_t>(bytes.data(), false);
   if (cookie != 1 && cookie != byte_swapped(std::int32_t{1})) return false;
   const auto version = load<std::int32_t>(bytes.data() + sizeof cookie, cookie != 1);
-  return version >= 1 && version <= kNewestVersion;
+  return version >= 1 && version <= kNewestMeditVersion;
 }
 
 MeshData read_medit_binary(const std::filesystem::path& file, TetPlace* question) {
   const InputFile input(file);
-  return Reader(input, question).read();
+  return MeditBinaryReader(input, question).read();
 }
 
 void write_medit_binary(const std::filesystem::path& file, const MeshView& mesh) {
   OutputFile out(file);
-  Writer(out, mesh).write();
+  MeditBinaryWriter(out, mesh).write();
   out.commit(mesh.companions());
 }
 

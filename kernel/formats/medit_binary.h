@@ -2,6 +2,7 @@
 // MEDIT's binary format `.meshb` (also known as GMF: Gamma Mesh Format).
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string_view>
 
@@ -10,6 +11,8 @@
 #include "kernel/mesh_view.h"
 
 namespace tetmend::formats {
+
+inline constexpr std::int32_t kNewestMeditVersion = 4;  ///< of binary files
 
 /// True of the first bytes of a binary MEDIT file, whatever its name: the cookie and a version, in
 /// either byte order.

@@ -98,17 +98,16 @@ class BinarySizes {
 
  private:
   void read_header() {
-    constexpr std::int32_t kNewestVersion = 4;
     const auto cookie = bytes_.number<std::int32_t>("the cookie 1");
     if (cookie != 1 && cookie != byte_swapped(std::int32_t{1})) {
       bytes_.fail_at(std::size_t{0}, "this is not a binary solution file of MEDIT");
     }
     bytes_.set_swap(cookie != 1);
     version_ = bytes_.number<std::int32_t>("the version of the format");
-    if (version_ >= 1 && version_ <= kNewestVersion) return;
+    if (version_ >= 1 && version_ <= kNewestMeditVersion) return;
     bytes_.fail_at(sizeof cookie,
                    fmt::format("version {} of the format is unknown: expected 1 to {}", version_,
-                               kNewestVersion));
+                               kNewestMeditVersion));
   }
 
   template <class Real>

@@ -32,9 +32,10 @@ bool names_elements(std::string_view name) {
   return name == "PLOAD4" || name == "BSURFS" || name == "TEMPE4" || name == "QBDY4";
 }
 
-class Reader : private NastranCardReader {
+class NastranReader : private NastranCardReader {
  public:
-  Reader(const std::filesystem::path& file, const NastranSources& sources, TetPlace* question)
+  NastranReader(const std::filesystem::path& file, const NastranSources& sources,
+                TetPlace* question)
       : NastranCardReader(sources),
         path_(file),
         question_(question),
@@ -351,7 +352,7 @@ class Reader : private NastranCardReader {
 
 MeshData read_nastran(const std::filesystem::path& file, TetPlace* question) {
   const NastranSources sources(file);
-  return Reader(file, sources, question).read();
+  return NastranReader(file, sources, question).read();
 }
 
 std::vector<std::filesystem::path> nastran_files(const std::filesystem::path& deck) {

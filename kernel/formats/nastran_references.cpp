@@ -292,7 +292,7 @@ bool is_pointless(std::string_view name) {
 }
 
 /// True if a field says that the numbers are of points.
-bool is_one_of(std::string_view field, std::initializer_list<std::string_view> words) {
+bool is_any_case_of(std::string_view field, std::initializer_list<std::string_view> words) {
   std::string capitals(field);
   for (char& c : capitals) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
   return std::find(words.begin(), words.end(), capitals) != words.end();
@@ -303,8 +303,8 @@ void read_set(const NastranCardText& card, Collector& to) {
   std::int64_t number = 0;
   const bool has_type = !card.field(1).empty() && !nastran_integer(card.field(1), number);
   if (!has_type) return to.all();
-  const bool is_box = is_one_of(card.field(2), {"BBOX"});
-  if (is_one_of(card.field(1), {"GRID", "GRIDC"}) && !is_box) to.by(FieldPattern("--(p)"));
+  const bool is_box = is_any_case_of(card.field(2), {"BBOX"});
+  if (is_any_case_of(card.field(1), {"GRID", "GRIDC"}) && !is_box) to.by(FieldPattern("--(p)"));
 }
 
 /// Cards of which other fields decide. False for others.
@@ -314,20 +314,20 @@ bool read_special(const NastranCardText& card, Collector& to) {
     to.rbe3();
   } else if (card.name == "DRESP2") {
     to.dresp2();
-  } else if (card.name == "PLOAD4" && is_one_of(card.field(6), {"THRU"})) {
+  } else if (card.name == "PLOAD4" && is_any_case_of(card.field(6), {"THRU"})) {
     return true;  // elements up to this number
   } else if (card.name == "PARAM") {
-    if (is_one_of(card.field(0), {"GRDPNT"})) by("-p");
+    if (is_any_case_of(card.field(0), {"GRDPNT"})) by("-p");
   } else if (card.name == "DMIG") {
     if (card.field(1) != "0") by("-p--(p---)");  // else it is the head of the matrix
   } else if (card.name == "SET3") {
-    if (!is_one_of(card.field(1), {"ELEM", "PROP"})) by("--(p)");
+    if (!is_any_case_of(card.field(1), {"ELEM", "PROP"})) by("--(p)");
   } else if (card.name == "SET") {
     read_set(card, to);
   } else if (card.name == "DRESP1") {
-    if (is_one_of(card.field(2),
-                  {"DISP", "VELO", "ACCL", "SPCFORCE", "GPFORCE", "FRDISP", "FRVELO", "FRACCL",
-                   "FRSPCF", "TDISP", "TVELO", "TACCL", "TSPCF", "PRES"})) {
+    if (is_any_case_of(card.field(2),
+                       {"DISP", "VELO", "ACCL", "SPCFORCE", "GPFORCE", "FRDISP", "FRVELO", "FRACCL",
+                        "FRSPCF", "TDISP", "TVELO", "TACCL", "TSPCF", "PRES"})) {
       by("-------(p)");
     }
   } else {
@@ -353,7 +353,7 @@ NastranReferences nastran_references(const NastranCardText& card) {
 
 bool is_nastran_set_of_elements(const NastranCardText& card) {
   const bool is_set = card.name == "SET" || card.name == "SET3";
-  return is_set && is_one_of(card.field(1), {"ELEM", "ELEMENT"});
+  return is_set && is_any_case_of(card.field(1), {"ELEM", "ELEMENT"});
 }
 
 }  // namespace tetmend::formats

@@ -99,9 +99,9 @@ Largest largest_of_cards(const std::string& cards) {
   return largest;
 }
 
-class Writer {
+class NastranWriter {
  public:
-  Writer(const std::filesystem::path& file, const MeshView& mesh)
+  NastranWriter(const std::filesystem::path& file, const MeshView& mesh)
       : out_(file), mesh_(mesh), lists_(mesh) {
     const MeshData* data = mesh.data();
     for (const std::string_view form : kNastranForms) {
@@ -440,7 +440,7 @@ class Writer {
 }  // namespace
 
 void write_nastran(const std::filesystem::path& file, const MeshView& mesh) {
-  Writer(file, mesh).write();
+  NastranWriter(file, mesh).write();
 }
 
 }  // namespace tetmend::formats

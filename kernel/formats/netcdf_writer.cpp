@@ -14,7 +14,7 @@ namespace tetmend::formats {
 namespace {
 
 constexpr std::uint64_t kMostOfTable = UINT32_MAX - 3;  // in CDF-2
-constexpr std::size_t kPadding = 4;
+constexpr std::size_t kAlignment = 4;
 /// Of the integers of 32 bits, the texts and the real numbers that are written.
 enum WrittenType : std::uint32_t { text_type = 2, int_type = 4, float_type = 5, double_type = 6 };
 
@@ -26,17 +26,17 @@ void put_reversed(std::string& to, Number value) {
   to.append(bytes.data(), bytes.size());
 }
 
-std::uint32_t type_of(const DataArray::Values& values) {
+std::uint32_t netcdf_type_of(const DataArray::Values& values) {
   constexpr std::array<std::uint32_t, 4> kTypes = {int_type, double_type, float_type, double_type};
   return kTypes[values.index()];
 }
-std::size_t bytes_of(const DataArray::Values& values) {
-  const std::size_t size = type_of(values) == double_type ? 8 : 4;
+std::size_t byte_count_of(const DataArray::Values& values) {
+  const std::size_t size = netcdf_type_of(values) == double_type ? 8 : 4;
   return size * std::visit([](const auto& numbers) { return numbers.size(); }, values);
 }
 
 void pad(std::string& text) {
-  text.append((kPadding - text.size() % kPadding) % kPadding, '\0');
+  text.append((kAlignment - text.size() % kAlignment) % kAlignment, '\0');
 }
 
 }  // namespace
@@ -114,7 +114,8 @@ std::string NetcdfWriter::header(const Layout& layout) const {
     put_list(12, attributes.size());
     for (const Attribute& attribute : attributes) {
       put_name(attribute.name);
-      put_reversed<std::uint32_t>(out, attribute.is_text ? text_type : type_of(attribute.numbers));
+      put_reversed<std::uint32_t>(
+          out, attribute.is_text ? text_type : netcdf_type_of(attribute.numbers));
       if (attribute.is_text) {
         put_length(attribute.text.size());
         out += attribute.text;
@@ -145,9 +146,11 @@ std::string NetcdfWriter::header(const Layout& layout) const {
     put_length(variable.dimensions.size());
     for (const std::size_t dimension : variable.dimensions) put_length(dimension);
     put_attributes(variable.attributes);
-    put_reversed<std::uint32_t>(out, variable.is_text ? text_type : type_of(variable.numbers));
-    const std::size_t size = variable.is_text ? variable.text.size() : bytes_of(variable.numbers);
-    put_length((size + kPadding - 1) / kPadding * kPadding);
+    put_reversed<std::uint32_t>(out,
+                                variable.is_text ? text_type : netcdf_type_of(variable.numbers));
+    const std::size_t size =
+        variable.is_text ? variable.text.size() : byte_count_of(variable.numbers);
+    put_length((size + kAlignment - 1) / kAlignment * kAlignment);
     put_reversed<std::uint64_t>(out, layout.begins[v]);
   }
   return out;
@@ -157,7 +160,7 @@ void NetcdfWriter::write(OutputFile& out) const {
   Layout layout;
   layout.begins.resize(variables_.size());
   const auto size_of = [](const Variable& variable) {
-    return variable.is_text ? variable.text.size() : bytes_of(variable.numbers);
+    return variable.is_text ? variable.text.size() : byte_count_of(variable.numbers);
   };
   for (const Variable& variable : variables_) {
     if (size_of(variable) > kMostOfTable) layout.version = 5;
@@ -169,7 +172,7 @@ void NetcdfWriter::write(OutputFile& out) const {
       if (is_step(variables_[v]) != of_step) continue;
       order.push_back(v);
       layout.begins[v] = at;
-      at += (size_of(variables_[v]) + kPadding - 1) / kPadding * kPadding;
+      at += (size_of(variables_[v]) + kAlignment - 1) / kAlignment * kAlignment;
     }
   }
   out.put(header(layout));

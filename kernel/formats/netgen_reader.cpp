@@ -60,9 +60,9 @@ struct SurfaceArrays {
 
 using Segment = std::array<double, kNetgenSegment>;
 
-class Reader {
+class NetgenReader {
  public:
-  Reader(const InputFile& file, TetPlace* question)
+  NetgenReader(const InputFile& file, TetPlace* question)
       : text_(file, '#'),
         question_(question),
         last_point_(std::min<std::int64_t>(find_point_count(file), kMostVertices)),
@@ -383,7 +383,7 @@ class Reader {
 
 MeshData read_netgen(const std::filesystem::path& file, TetPlace* question) {
   const InputFile input(file);
-  return Reader(input, question).read();
+  return NetgenReader(input, question).read();
 }
 
 }  // namespace tetmend::formats

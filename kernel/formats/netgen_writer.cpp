@@ -51,9 +51,9 @@ struct SurfaceRow {
   friend auto operator<=>(const SurfaceRow&, const SurfaceRow&) = default;
 };
 
-class Writer {
+class NetgenWriter {
  public:
-  Writer(const std::filesystem::path& file, const MeshView& mesh)
+  NetgenWriter(const std::filesystem::path& file, const MeshView& mesh)
       : out_(file),
         mesh_(mesh),
         lists_(mesh),
@@ -421,7 +421,7 @@ class Writer {
 }  // namespace
 
 void write_netgen(const std::filesystem::path& file, const MeshView& mesh) {
-  Writer(file, mesh).write();
+  NetgenWriter(file, mesh).write();
 }
 
 }  // namespace tetmend::formats

@@ -33,7 +33,7 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(first, text.find_last_not_of(kBlanks) - first + 1);
 }
 
-std::string_view without_comment(std::string_view line) {
+std::string_view before_comment(std::string_view line) {
   return line.substr(0, line.find(kComment));
 }
 
@@ -44,7 +44,7 @@ struct Survey {
 };
 
 /// Looks at the lines with an equals sign only.
-Survey survey(const InputFile& file) {
+Survey survey_file(const InputFile& file) {
   Survey found;
   bool counted = false;
   const char* next = file.begin();
@@ -59,7 +59,7 @@ Survey survey(const InputFile& file) {
     const char* end = newline == nullptr ? file.end() : newline;
     const std::string_view name = trimmed({begin, static_cast<std::size_t>(sign - begin)});
     const std::string_view value =
-        trimmed(without_comment({sign + 1, static_cast<std::size_t>(end - sign - 1)}));
+        trimmed(before_comment({sign + 1, static_cast<std::size_t>(end - sign - 1)}));
     if (name == "MARKER_TAG") found.tags.emplace_back(value);
     if (name == "NPOIN" && !std::exchange(counted, true)) {
       std::from_chars(value.data(), value.data() + value.size(), found.points);
@@ -76,7 +76,7 @@ bool is_label(const std::string& tag, Label& label) {
 }
 
 /// Of each marker.
-std::vector<Label> labels_of(const std::vector<std::string>& tags) {
+std::vector<Label> marker_labels(const std::vector<std::string>& tags) {
   std::vector<Label> labels(tags.size());
   bool are_labels = true;
   for (std::size_t i = 0; i < tags.size(); ++i) are_labels &= is_label(tags[i], labels[i]);
@@ -86,13 +86,13 @@ std::vector<Label> labels_of(const std::vector<std::string>& tags) {
   return labels;
 }
 
-class Reader {
+class Su2Reader {
  public:
-  Reader(const InputFile& file, TetPlace* question)
+  Su2Reader(const InputFile& file, TetPlace* question)
       : text_(file, kComment),
         question_(question),
-        survey_(survey(file)),
-        labels_(labels_of(survey_.tags)),
+        survey_(survey_file(file)),
+        labels_(marker_labels(survey_.tags)),
         sorter_(mesh_) {}
 
   MeshData read() {
@@ -115,7 +115,7 @@ class Reader {
   bool read_keyword() {
     if (text_.at_end()) return false;
     const char* begin = text_.position();
-    const std::string_view line = without_comment(text_.skip_line());
+    const std::string_view line = before_comment(text_.skip_line());
     const std::size_t sign = line.find('=');
     if (sign == std::string_view::npos) {
       text_.fail(fmt::format("{} is not expected here: expected a keyword and '='",
@@ -234,7 +234,7 @@ class Reader {
       piece += text_.skip_line();
       piece += '\n';
       const char* next = text_.position();
-      const std::string_view line = without_comment(text_.skip_line());
+      const std::string_view line = before_comment(text_.skip_line());
       text_.seek(next);
       if (line.find('=') != std::string_view::npos) break;
     } while (text_.bytes_left() > 0);
@@ -268,9 +268,9 @@ struct Marker {
   std::vector<std::pair<const ElementList*, std::size_t>> elements;
 };
 
-class Writer {
+class Su2Writer {
  public:
-  Writer(const std::filesystem::path& file, const MeshView& mesh)
+  Su2Writer(const std::filesystem::path& file, const MeshView& mesh)
       : out_(file), mesh_(mesh), lists_(mesh) {}
 
   void write() {
@@ -374,11 +374,11 @@ class Writer {
 
 MeshData read_su2(const std::filesystem::path& file, TetPlace* question) {
   const InputFile input(file);
-  return Reader(input, question).read();
+  return Su2Reader(input, question).read();
 }
 
 void write_su2(const std::filesystem::path& file, const MeshView& mesh) {
-  Writer(file, mesh).write();
+  Su2Writer(file, mesh).write();
 }
 
 }  // namespace tetmend::formats

@@ -23,7 +23,7 @@
 namespace tetmend::formats {
 namespace {
 
-constexpr std::array<std::string_view, 4> kExtensions = {".node", ".ele", ".face", ".edge"};
+constexpr std::array<std::string_view, 4> kTetgenExtensions = {".node", ".ele", ".face", ".edge"};
 
 /// The file of the same stem with another extension, in the case of the one given (MESH.NODE goes
 /// with MESH.ELE).
@@ -93,9 +93,9 @@ class Table {
   TextReader text_;
 };
 
-class Reader {
+class TetgenReader {
  public:
-  Reader(const std::filesystem::path& file, TetPlace* question)
+  TetgenReader(const std::filesystem::path& file, TetPlace* question)
       : file_(file), question_(question) {}
 
   MeshData read() {
@@ -437,8 +437,8 @@ void write_second_order_tets(OutputFile& out, std::size_t base, const OtherEleme
 
 /// Of first order, or of second if the mesh is: a file has rows of one length.
 template <class Element>
-void write_elements(OutputFile& out, std::size_t base, std::span<const Element> elements,
-                    bool is_second_order, const OtherElements* second) {
+void write_tetgen_elements(OutputFile& out, std::size_t base, std::span<const Element> elements,
+                           bool is_second_order, const OtherElements* second) {
   if (is_second_order) elements = {};
   const std::size_t count = second == nullptr ? elements.size() : second->labels.size();
   out.put(fmt::format("{} 1\n", count));
@@ -457,7 +457,7 @@ void write_elements(OutputFile& out, std::size_t base, std::span<const Element> 
 }  // namespace
 
 MeshData read_tetgen(const std::filesystem::path& node_or_ele, TetPlace* question) {
-  return Reader(node_or_ele, question).read();
+  return TetgenReader(node_or_ele, question).read();
 }
 
 void write_tetgen(const std::filesystem::path& node_or_ele, const MeshView& mesh) {
@@ -478,9 +478,9 @@ void write_tetgen(const std::filesystem::path& node_or_ele, const MeshView& mesh
   } else {
     write_tets(tets, mesh);
   }
-  write_elements(faces, base, mesh.triangles(), second != nullptr, second_order(mesh, 22));
+  write_tetgen_elements(faces, base, mesh.triangles(), second != nullptr, second_order(mesh, 22));
   if (edges) {
-    write_elements(*edges, base, mesh.edges(), second != nullptr, second_order(mesh, 21));
+    write_tetgen_elements(*edges, base, mesh.edges(), second != nullptr, second_order(mesh, 21));
   }
   std::vector<OutputFile*> all = {&faces, &nodes, &tets};
   if (edges) all.push_back(&*edges);
@@ -489,7 +489,7 @@ void write_tetgen(const std::filesystem::path& node_or_ele, const MeshView& mesh
 
 std::vector<std::filesystem::path> tetgen_files(const std::filesystem::path& node_or_ele) {
   std::vector<std::filesystem::path> files = {node_or_ele};
-  for (const std::string_view extension : kExtensions) {
+  for (const std::string_view extension : kTetgenExtensions) {
     const std::filesystem::path file = sibling(node_or_ele, extension);
     if (file != node_or_ele) files.push_back(file);
   }

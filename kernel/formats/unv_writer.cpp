@@ -20,14 +20,15 @@
 namespace tetmend::formats {
 namespace {
 
-constexpr std::string_view kMark = "    -1\n";
-constexpr std::string_view kBlanks = "          ";  // a field of integers
+constexpr std::string_view kMarkLine = "    -1\n";
+constexpr std::string_view kBlankField = "          ";  // a field of integers
 // Numbers of ten digits would touch those before them.
 constexpr std::array<std::int64_t, 2> kLimits = {999'999'999, INT32_MAX};
 
 void put_field(OutputBuffer& buffer, std::int64_t value) {
   const fmt::format_int text(value);
-  buffer.put(kBlanks.substr(0, kBlanks.size() - std::min(kBlanks.size() - 1, text.size())));
+  buffer.put(
+      kBlankField.substr(0, kBlankField.size() - std::min(kBlankField.size() - 1, text.size())));
   buffer.put(std::string_view(text.data(), text.size()));
 }
 
@@ -85,7 +86,7 @@ class UnvWriter {
 
  private:
   void begin(std::string_view dataset) {
-    out_.put(kMark);
+    out_.put(kMarkLine);
     out_.put(fmt::format("{:>6}\n", dataset));
   }
 
@@ -103,7 +104,7 @@ class UnvWriter {
       for (int axis = 0; axis < 3; ++axis) put_real_field(buffer, mesh_.point(i)[axis]);
       buffer.put('\n');
     });
-    out_.put(kMark);
+    out_.put(kMarkLine);
   }
 
   void write_elements() {
@@ -124,7 +125,7 @@ class UnvWriter {
         put_nodes(buffer, list, *kind, i);
       });
     }
-    out_.put(kMark);
+    out_.put(kMarkLine);
   }
 
   void put_nodes(OutputBuffer& buffer, const ElementList& list, const UnvKind& kind,
@@ -187,7 +188,7 @@ class UnvWriter {
         buffer.put('\n');
       });
     }
-    out_.put(kMark);
+    out_.put(kMarkLine);
   }
 
   OutputFile out_;

@@ -17,50 +17,34 @@
 namespace tetmend::formats {
 namespace {
 
-using Kind = VtkType::Kind;
+using VtkKind = VtkType::Kind;
 
 // Sizes are those of VTK on 64-bit Linux; its writer stores vtkIdType as int.
-constexpr std::array<VtkType, 25> kVtkTypes = {{{"bit", Kind::bit, 0},
-                                                {"char", Kind::signed_integer, 1},
-                                                {"signed_char", Kind::signed_integer, 1},
-                                                {"unsigned_char", Kind::unsigned_integer, 1},
-                                                {"short", Kind::signed_integer, 2},
-                                                {"unsigned_short", Kind::unsigned_integer, 2},
-                                                {"int", Kind::signed_integer, 4},
-                                                {"unsigned_int", Kind::unsigned_integer, 4},
-                                                {"vtkidtype", Kind::signed_integer, 4},
-                                                {"long", Kind::signed_integer, 8},
-                                                {"unsigned_long", Kind::unsigned_integer, 8},
-                                                {"float", Kind::real, 4},
-                                                {"double", Kind::real, 8},
-                                                {"vtktypeint8", Kind::signed_integer, 1},
-                                                {"vtktypeuint8", Kind::unsigned_integer, 1},
-                                                {"vtktypeint16", Kind::signed_integer, 2},
-                                                {"vtktypeuint16", Kind::unsigned_integer, 2},
-                                                {"vtktypeint32", Kind::signed_integer, 4},
-                                                {"vtktypeuint32", Kind::unsigned_integer, 4},
-                                                {"vtktypeint64", Kind::signed_integer, 8},
-                                                {"vtktypeuint64", Kind::unsigned_integer, 8},
-                                                {"vtktypefloat32", Kind::real, 4},
-                                                {"vtktypefloat64", Kind::real, 8},
-                                                {"string", Kind::text, 0},
-                                                {"utf8_string", Kind::text, 0}}};
-
-std::int64_t load_integer(std::size_t width, bool is_signed, const char* from) {
-  switch (width) {
-    case 1:
-      return is_signed ? load<std::int8_t>(from, false) : load<std::uint8_t>(from, false);
-    case 2:
-      return is_signed ? load<std::int16_t>(from, kVtkSwaps) : load<std::uint16_t>(from, kVtkSwaps);
-    case 4:
-      return is_signed ? load<std::int32_t>(from, kVtkSwaps)
-                       : std::int64_t{load<std::uint32_t>(from, kVtkSwaps)};
-    default:
-      // An unsigned value beyond 2^63 becomes negative, which every caller refuses as it does the
-      // true value.
-      return load<std::int64_t>(from, kVtkSwaps);
-  }
-}
+constexpr std::array<VtkType, 25> kVtkTypes = {{{"bit", VtkKind::bit, 0},
+                                                {"char", VtkKind::signed_integer, 1},
+                                                {"signed_char", VtkKind::signed_integer, 1},
+                                                {"unsigned_char", VtkKind::unsigned_integer, 1},
+                                                {"short", VtkKind::signed_integer, 2},
+                                                {"unsigned_short", VtkKind::unsigned_integer, 2},
+                                                {"int", VtkKind::signed_integer, 4},
+                                                {"unsigned_int", VtkKind::unsigned_integer, 4},
+                                                {"vtkidtype", VtkKind::signed_integer, 4},
+                                                {"long", VtkKind::signed_integer, 8},
+                                                {"unsigned_long", VtkKind::unsigned_integer, 8},
+                                                {"float", VtkKind::real, 4},
+                                                {"double", VtkKind::real, 8},
+                                                {"vtktypeint8", VtkKind::signed_integer, 1},
+                                                {"vtktypeuint8", VtkKind::unsigned_integer, 1},
+                                                {"vtktypeint16", VtkKind::signed_integer, 2},
+                                                {"vtktypeuint16", VtkKind::unsigned_integer, 2},
+                                                {"vtktypeint32", VtkKind::signed_integer, 4},
+                                                {"vtktypeuint32", VtkKind::unsigned_integer, 4},
+                                                {"vtktypeint64", VtkKind::signed_integer, 8},
+                                                {"vtktypeuint64", VtkKind::unsigned_integer, 8},
+                                                {"vtktypefloat32", VtkKind::real, 4},
+                                                {"vtktypefloat64", VtkKind::real, 8},
+                                                {"string", VtkKind::text, 0},
+                                                {"utf8_string", VtkKind::text, 0}}};
 
 /// VTK puts the length before each binary string; the two highest bits of its first byte tell how
 /// many bytes it takes.
@@ -81,7 +65,8 @@ std::vector<Value> load_values(const char* at, const VtkType& type, std::size_t 
   std::vector<Value> values(count);
   for (Value& value : values) {
     if constexpr (std::is_integral_v<Value>) {
-      value = static_cast<Value>(load_integer(type.size, type.kind == Kind::signed_integer, at));
+      value = static_cast<Value>(
+          load_integer(at, type.size, type.kind == VtkKind::signed_integer, kVtkSwaps));
     } else {
       value = load<Value>(at, kVtkSwaps);
     }
@@ -134,17 +119,17 @@ const VtkType& find_vtk_type(TextReader& text, std::string_view word) {
 void skip_vtk_values(TextReader& text, bool binary, const VtkType& type, std::size_t count) {
   if (!binary) {
     for (std::size_t i = 0; i < count; ++i) {
-      if (type.kind == Kind::text) {
+      if (type.kind == VtkKind::text) {
         if (text.at_end()) text.fail("the file ends where a string is expected");
         text.skip_line();
       } else {
         text.expect_word("a value of an array");
       }
     }
-  } else if (type.kind == Kind::text) {
+  } else if (type.kind == VtkKind::text) {
     for (std::size_t i = 0; i < count; ++i) skip_binary_string(text);
   } else {
-    text.bytes(type.kind == Kind::bit ? (count + 7) / 8 : count * type.size,
+    text.bytes(type.kind == VtkKind::bit ? (count + 7) / 8 : count * type.size,
                "the values of an array");
   }
 }
@@ -152,7 +137,7 @@ void skip_vtk_values(TextReader& text, bool binary, const VtkType& type, std::si
 DataArray::Values read_vtk_values(TextReader& text, bool binary, const VtkType& type,
                                   std::size_t count) {
   const char* at = binary ? text.bytes(count * type.size, "the values of an array") : nullptr;
-  const bool is_real = type.kind == Kind::real;
+  const bool is_real = type.kind == VtkKind::real;
   if (is_real && type.size == 4) {
     if (binary) return load_values<float>(at, type, count);
     return parse_values<float>(text, count);
@@ -161,7 +146,7 @@ DataArray::Values read_vtk_values(TextReader& text, bool binary, const VtkType& 
     if (binary) return load_values<double>(at, type, count);
     return parse_values<double>(text, count);
   }
-  const bool fits = type.size < 4 || (type.size == 4 && type.kind == Kind::signed_integer);
+  const bool fits = type.size < 4 || (type.size == 4 && type.kind == VtkKind::signed_integer);
   if (fits && binary) return load_values<std::int32_t>(at, type, count);
   // The text of an int may be out of its range.
   std::vector<std::int64_t> values =
@@ -176,10 +161,10 @@ DataArray::Values read_vtk_values(TextReader& text, bool binary, const VtkType& 
 std::size_t checked_vtk_count(TextReader& text, bool binary, const VtkType& type, std::size_t rows,
                               std::size_t columns) {
   if (rows == 0 || columns == 0) return 0;
-  std::size_t most = type.kind == Kind::text ? text.bytes_left() : (text.bytes_left() + 1) / 2;
+  std::size_t most = type.kind == VtkKind::text ? text.bytes_left() : (text.bytes_left() + 1) / 2;
   if (binary) {
     most = text.bytes_left();
-    most = type.kind == Kind::bit ? 8 * most : most / std::max<std::size_t>(type.size, 1);
+    most = type.kind == VtkKind::bit ? 8 * most : most / std::max<std::size_t>(type.size, 1);
   }
   if (rows > most || columns > most / rows) {
     text.fail(fmt::format(
@@ -193,13 +178,13 @@ std::size_t checked_vtk_count(TextReader& text, bool binary, const VtkType& type
 VtkIntegers::VtkIntegers(TextReader& text, bool binary, const VtkType& type, std::size_t count,
                          std::string_view what)
     : size_(count), type_(&type) {
-  if (type.kind != Kind::signed_integer && type.kind != Kind::unsigned_integer) {
+  if (type.kind != VtkKind::signed_integer && type.kind != VtkKind::unsigned_integer) {
     text.fail(fmt::format("{} cannot be of type {}: expected an integer type", what, type.name));
   }
   checked_vtk_count(text, binary, type, count, 1);
   if (binary) {
     width_ = type.size;
-    is_signed_ = type.kind == Kind::signed_integer;
+    is_signed_ = type.kind == VtkKind::signed_integer;
     begin_ = text.bytes(count * width_, what);
     return;
   }
@@ -213,7 +198,7 @@ VtkIntegers::VtkIntegers(TextReader& text, bool binary, const VtkType& type, std
 }
 
 std::int64_t VtkIntegers::load_other(const char* from) const {
-  return load_integer(width_, is_signed_, from);
+  return load_integer(from, width_, is_signed_, kVtkSwaps);
 }
 
 const char* VtkIntegers::locate(TextReader& text, std::size_t i) const {
@@ -230,10 +215,11 @@ const char* locate_vtk_value(TextReader& text, bool binary, const VtkType& type,
 }
 
 double load_vtk_real(const VtkType& type, const char* from) {
-  if (type.kind == Kind::real) {
+  if (type.kind == VtkKind::real) {
     return type.size == 4 ? load<float>(from, kVtkSwaps) : load<double>(from, kVtkSwaps);
   }
-  return static_cast<double>(load_integer(type.size, type.kind == Kind::signed_integer, from));
+  return static_cast<double>(
+      load_integer(from, type.size, type.kind == VtkKind::signed_integer, kVtkSwaps));
 }
 
 }  // namespace tetmend::formats

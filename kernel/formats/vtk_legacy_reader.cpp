@@ -37,9 +37,9 @@ std::string lower_case(std::string_view word) {
   return lower;
 }
 
-class Reader {
+class VtkLegacyReader {
  public:
-  Reader(const InputFile& file, const ReadRequest& request)
+  VtkLegacyReader(const InputFile& file, const ReadRequest& request)
       : text_(file, TextReader::kNoComments), request_(request) {}
 
   MeshData read() {
@@ -399,7 +399,7 @@ class Reader {
 
 MeshData read_vtk_legacy(const std::filesystem::path& file, const ReadRequest& request) {
   const InputFile input(file);
-  return Reader(input, request).read();
+  return VtkLegacyReader(input, request).read();
 }
 
 }  // namespace tetmend::formats

@@ -74,9 +74,9 @@ std::string_view type_name(const DataArray& array) {
 }
 
 /// One call of write_vtk_legacy().
-class Writer {
+class VtkLegacyWriter {
  public:
-  Writer(OutputFile& out, const MeshView& mesh)
+  VtkLegacyWriter(OutputFile& out, const MeshView& mesh)
       : out_(out),
         mesh_(mesh),
         rest_(mesh.data() != nullptr ? *mesh.data() : kNothingElse),
@@ -272,7 +272,7 @@ void write_vtk_legacy(const std::filesystem::path& file, const MeshView& mesh,
                     file.string(), INT32_MAX, mesh.point_count()));
   }
   OutputFile out(file);
-  Writer(out, mesh).write(fields);
+  VtkLegacyWriter(out, mesh).write(fields);
   out.commit(mesh.companions());
 }
 

@@ -13,22 +13,22 @@
 namespace tetmend::formats {
 namespace {
 
-constexpr std::size_t kBlockSize = std::size_t{1} << 17;
+constexpr std::size_t kVtuBlockSize = std::size_t{1} << 17;
 
 }  // namespace
 
 void VtuBlocks::put(std::string_view bytes, const Sink& sink) {
   size_ += bytes.size();
   if (!waiting_.empty()) {
-    const std::string_view first = bytes.substr(0, kBlockSize - waiting_.size());
+    const std::string_view first = bytes.substr(0, kVtuBlockSize - waiting_.size());
     waiting_ += first;
     bytes.remove_prefix(first.size());
-    if (waiting_.size() < kBlockSize) return;
+    if (waiting_.size() < kVtuBlockSize) return;
     pack(waiting_, sink);
     waiting_.clear();
   }
-  for (; bytes.size() >= kBlockSize; bytes.remove_prefix(kBlockSize)) {
-    pack(bytes.substr(0, kBlockSize), sink);
+  for (; bytes.size() >= kVtuBlockSize; bytes.remove_prefix(kVtuBlockSize)) {
+    pack(bytes.substr(0, kVtuBlockSize), sink);
   }
   waiting_ = bytes;
 }
@@ -45,7 +45,7 @@ void VtuBlocks::pack(std::string_view block, const Sink& sink) {
 }
 
 std::vector<std::uint64_t> VtuBlocks::header() const {
-  std::vector<std::uint64_t> header = {packed_sizes_.size(), kBlockSize, size_ % kBlockSize};
+  std::vector<std::uint64_t> header = {packed_sizes_.size(), kVtuBlockSize, size_ % kVtuBlockSize};
   header.insert(header.end(), packed_sizes_.begin(), packed_sizes_.end());
   return header;
 }

@@ -43,9 +43,9 @@
 namespace tetmend::formats {
 namespace {
 
-class Reader {
+class VtuReader {
  public:
-  Reader(const InputFile& file, const ReadRequest& request)
+  VtuReader(const InputFile& file, const ReadRequest& request)
       : file_(file),
         text_(file, TextReader::kNoComments),
         request_(request),
@@ -553,7 +553,7 @@ class Reader {
 
 MeshData read_vtu(const std::filesystem::path& file, const ReadRequest& request) {
   const InputFile input(file);
-  return Reader(input, request).read();
+  return VtuReader(input, request).read();
 }
 
 }  // namespace tetmend::formats

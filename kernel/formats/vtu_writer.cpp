@@ -25,9 +25,9 @@ std::string_view bytes_of(const std::vector<T>& values) {
   return {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T)};
 }
 
-class Writer {
+class VtuWriter {
  public:
-  Writer(OutputFile& out, const MeshView& mesh)
+  VtuWriter(OutputFile& out, const MeshView& mesh)
       : out_(out),
         mesh_(mesh),
         rest_(mesh.data() != nullptr ? *mesh.data() : kNothingElse),
@@ -187,7 +187,7 @@ class Writer {
 
 void write_vtu(const std::filesystem::path& file, const MeshView& mesh) {
   OutputFile out(file);
-  Writer(out, mesh).write();
+  VtuWriter(out, mesh).write();
   out.commit(mesh.companions());
 }
 

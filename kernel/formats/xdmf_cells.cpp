@@ -11,8 +11,8 @@
 namespace tetmend::formats {
 namespace {
 
-const XdmfType* type_of(const XdmfItems& items, const pugi::xml_node& topology,
-                        const std::string& name, std::int64_t number) {
+const XdmfType* xdmf_type_of(const XdmfItems& items, const pugi::xml_node& topology,
+                             const std::string& name, std::int64_t number) {
   const auto found = std::find_if(kXdmfTypes.begin(), kXdmfTypes.end(), [&](const auto& type) {
     return name.empty() ? type.number == number : type.name == name || type.other == name;
   });
@@ -31,9 +31,9 @@ XdmfCells read_xdmf_cells(XdmfItems& items, const pugi::xml_node& topology) {
   XdmfCells cells;
   if (topology.attribute("BaseOffset").as_llong(0) != 0)
     items.fail(topology, "points that do not count from 0 cannot be read: expected no BaseOffset");
-  const XdmfType* type = name == "mixed" ? nullptr : type_of(items, topology, name, 0);
+  const XdmfType* type = name == "mixed" ? nullptr : xdmf_type_of(items, topology, name, 0);
   for (std::size_t at = 0; at < all.size();) {
-    const XdmfType* of_cell = type != nullptr ? type : type_of(items, topology, {}, all[at++]);
+    const XdmfType* of_cell = type != nullptr ? type : xdmf_type_of(items, topology, {}, all[at++]);
     const std::size_t width = element_kind(of_cell->vtk_type)->width;
     if (type == nullptr && of_cell->number <= 2) {  // how many points a line has
       if (at < all.size() && all[at] != static_cast<std::int64_t>(width))

@@ -34,9 +34,9 @@
 namespace tetmend::formats {
 namespace {
 
-class Reader {
+class XdmfReader {
  public:
-  Reader(const InputFile& file, const std::filesystem::path& path, const ReadRequest& request)
+  XdmfReader(const InputFile& file, const std::filesystem::path& path, const ReadRequest& request)
       : file_(file),
         text_(file, TextReader::kNoComments),
         items_(file, path.parent_path()),
@@ -348,7 +348,7 @@ class Reader {
 
 MeshData read_xdmf(const std::filesystem::path& path, const ReadRequest& request) {
   const InputFile file(path);
-  return Reader(file, path, request).read();
+  return XdmfReader(file, path, request).read();
 }
 
 }  // namespace tetmend::formats

@@ -32,9 +32,9 @@ const XdmfType& xdmf_type(const ElementKind& kind) {
                        [&](const XdmfType& type) { return type.vtk_type == kind.vtk_type; });
 }
 
-class Writer {
+class XdmfWriter {
  public:
-  Writer(const std::filesystem::path& file, const MeshView& mesh)
+  XdmfWriter(const std::filesystem::path& file, const MeshView& mesh)
       : out_(file),
         tables_out_(tables_beside(file)),
         tables_(make_hdf5(tables_beside(file).string(), "XDMF")),
@@ -209,7 +209,7 @@ std::vector<std::string> not_in_xdmf(const std::filesystem::path&, const MeshDat
 }
 
 void write_xdmf(const std::filesystem::path& file, const MeshView& mesh) {
-  Writer(file, mesh).write();
+  XdmfWriter(file, mesh).write();
 }
 
 }  // namespace tetmend::formats

@@ -17,11 +17,13 @@ FOLDERS = "platform kernel trace search envelope ops contract schedule face piec
 UNIT = ("tests/platform/", "tests/kernel/", "tests/trace/", "tests/search/", "tests/ops/", "tests/schedule/", "tests/contract/")
 PYTHON_CHARTS = ("report/", "explain/json_text.cpp", "explain/page_text.cpp", "figure/markup.cpp", "kernel/printable.cpp")
 BY_HAND = "# By hand: names that only a compiler sees."
+# Programs of one source, and code of another system: never compiled as one with the others of their folder.
+APART = ("apps/tetmend_mpi.cpp", "apps/tetmend_view.cpp", "platform/platform_windows.cpp")
 DECLARED = re.compile(
     r"^(?:template <[^;{]*> *)?(?:(?:struct|class|enum(?: class)?|union|concept) (?P<type>\w+)"
     r"|using (?P<alias>\w+) ="
     r"|(?:namespace) (?P<space>\w+) ="
-    r"|(?:[\w:<>,&*\[\]\" ]|\([^()]*\))*?[\w>&*\]] ?[&*]*(?P<name>\w+)(?= ?(?:\(|\{|=|\[|;)))")
+    r"|(?:[\w:<>,&*\[\]\" ]|\([^()]*\))*?[\w>&*\]] ?[&*]*\b(?P<name>\w+)(?= ?(?:\(|\{|=|\[|;)))")
 
 
 def own_names(text):
@@ -57,7 +59,7 @@ def alone(root, known=()):
     groups = collections.defaultdict(dict)
     for path in sorted(root.glob("**/*.cpp")):
         name = path.relative_to(root).as_posix()
-        group = None if name.startswith("build/") else group_of(name)
+        group = None if name.startswith("build/") or name in APART else group_of(name)
         if group:
             names = own_names(path.read_text(encoding="utf-8"))
             groups[group][name] = names

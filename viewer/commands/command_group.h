@@ -90,6 +90,10 @@ nlohmann::json toggle(Session& s, const nlohmann::json&) {
   return nullptr;
 }
 
+// Menus with commands of several groups.
+inline constexpr std::string_view kFileMenu = "File";
+inline constexpr std::string_view kViewMenu = "View";
+
 std::span<const Command> file_commands();
 std::span<const Command> figure_commands();
 std::span<const Command> view_commands();

@@ -139,12 +139,9 @@ json background(Session& s, const json& a) {
   return to_json(s.document.view)["background"];
 }
 
-constexpr std::string_view kFile = "File";
-constexpr std::string_view kView = "View";
-
 constexpr std::array kFigureCommands = {
     Command{
-        "figure", "", kFile, "figure{what = \"ring\", file = \"FILE.svg\", call = CALL}",
+        "figure", "", kFileMenu, "figure{what = \"ring\", file = \"FILE.svg\", call = CALL}",
         "Write the ring, tree, timeline or shell of a call, or of the one at hand, as .svg, .pdf "
         "or .tex; the menu all of them as tetmend-ring.svg, ...",
         &figure},
@@ -153,14 +150,14 @@ constexpr std::array kFigureCommands = {
         "Write pictures of a range of events of a trace, or a video, x.mp4 or x.gif; the result is "
         "their number",
         &frames},
-    Command{"colour_bar", "", kView, "colour_bar()",
+    Command{"colour_bar", "", kViewMenu, "colour_bar()",
             "A colour bar with the numbers of the measure on or off; of regions, their colours",
             &toggle<&ViewSettings::colour_bar>},
-    Command{"scale_bar", "", kView, "scale_bar()", "A scale bar on or off",
+    Command{"scale_bar", "", kViewMenu, "scale_bar()", "A scale bar on or off",
             &toggle<&ViewSettings::scale_bar>},
     Command{"title", "", "", "title(\"TEXT\")", "A title over the mesh; without a text, none",
             &title},
-    Command{"background", "", kView, "background(\"white\")",
+    Command{"background", "", kViewMenu, "background(\"white\")",
             "Background gradient, white or transparent, which PNG files have as alpha; the menu "
             "takes the next",
             &background},

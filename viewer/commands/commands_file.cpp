@@ -15,7 +15,7 @@ using nlohmann::json;
 
 namespace {
 
-json open(Session& s, const json& a) {
+json open_file(Session& s, const json& a) {
   if (a.empty()) {
     s.document.question = FileQuestion::open;
   } else {
@@ -91,22 +91,20 @@ json quit(Session& s, const json&) {
   return nullptr;
 }
 
-constexpr std::string_view kFile = "File";
-
 constexpr std::array kFileCommands = {
-    Command{"open", "Ctrl+O", kFile, "open(\"FILE\")", "Open a mesh or a trace", &open},
-    Command{"save", "Ctrl+S", kFile, "save(\"FILE\")", "Save the mesh as it is shown", &save},
-    Command{"reload", "F5", kFile, "reload()", "Read the file again", &reload},
+    Command{"open", "Ctrl+O", kFileMenu, "open(\"FILE\")", "Open a mesh or a trace", &open_file},
+    Command{"save", "Ctrl+S", kFileMenu, "save(\"FILE\")", "Save the mesh as it is shown", &save},
+    Command{"reload", "F5", kFileMenu, "reload()", "Read the file again", &reload},
     Command{"compare", "", "", "compare(\"FILE\")",
             "Show the statistics of another mesh beside: the state before", &compare},
     Command{
-        "screenshot", "P", kFile, "screenshot(\"FILE.png\")",
+        "screenshot", "P", kFileMenu, "screenshot(\"FILE.png\")",
         "Write the picture; without a name to tetmend-view.png, or with a number if that is there",
         &screenshot},
-    Command{"copy_view", "Ctrl+C", kFile, "copy_view()", "Copy the view as JSON", &copy_view},
-    Command{"paste_view", "Ctrl+V", kFile, "paste_view()", "Take the view from the clipboard",
+    Command{"copy_view", "Ctrl+C", kFileMenu, "copy_view()", "Copy the view as JSON", &copy_view},
+    Command{"paste_view", "Ctrl+V", kFileMenu, "paste_view()", "Take the view from the clipboard",
             &paste_view},
-    Command{"quit", "Ctrl+Q", kFile, "quit()", "Quit", &quit},
+    Command{"quit", "Ctrl+Q", kFileMenu, "quit()", "Quit", &quit},
 };
 
 }  // namespace

@@ -68,7 +68,7 @@ json numbers_of(const HistorySubject& subject) {
   return numbers;
 }
 
-json to_json(const TraceFile& file, const History& history) {
+json history_json(const TraceFile& file, const History& history) {
   json calls = json::array();
   json trials = json::array();
   for (const HistoryCall& each : history.calls) {
@@ -124,7 +124,7 @@ json history(Session& s, const json& a) {
   const Selection found = s.document.selection_of(debugger.history()->subject);
   if (found != Selection()) s.document.select(found);
   s.document.message = {fmt::format("the history of {} is in the panel History", asked), false};
-  return to_json(debugger.file(), *debugger.history());
+  return history_json(debugger.file(), *debugger.history());
 }
 
 constexpr std::array kHistoryCommands = {

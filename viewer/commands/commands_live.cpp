@@ -44,7 +44,7 @@ json record(Session& s, const json& a) {
   return nullptr;
 }
 
-void begin(Session& s, std::string_view word, const json& a, bool paused) {
+void begin_run(Session& s, std::string_view word, const json& a, bool paused) {
   need_mesh(s.document);
   const std::string from = a.empty() ? "file" : Arguments(word, a).text(0);
   if (from != "file" && from != "shown") {
@@ -54,13 +54,13 @@ void begin(Session& s, std::string_view word, const json& a, bool paused) {
   s.document.run_live(from == "file" ? LiveRun::From::file : LiveRun::From::shown);
 }
 
-json run(Session& s, const json& a) {
-  begin(s, "live_run", a, false);
+json live_run(Session& s, const json& a) {
+  begin_run(s, "live_run", a, false);
   return nullptr;
 }
 
 json start(Session& s, const json& a) {
-  begin(s, "live_start", a, true);
+  begin_run(s, "live_start", a, true);
   return nullptr;
 }
 
@@ -69,7 +69,7 @@ json speed(Session& s, const json& a) {
   return s.document.live.speed();
 }
 
-json follow(Session& s, const json&) {
+json live_follow(Session& s, const json&) {
   bool& follows = s.document.follow_changes_live;
   follows = !follows;
   s.document.message = {
@@ -104,12 +104,12 @@ json hold_parameter(Session& s, const json& a) {
 }
 
 template <Demand What>
-json ask(Session& s, const json&) {
+json live_ask(Session& s, const json&) {
   s.document.live.ask(What);
   return nullptr;
 }
 
-json state(Session& s, const json&) {
+json live_state(Session& s, const json&) {
   s.document.follow_live();
   return to_json(s.document.live.progress());
 }
@@ -117,7 +117,7 @@ json state(Session& s, const json&) {
 json wait(Session& s, const json& a) {
   constexpr double kForever = 1e6;
   s.document.live.wait(a.empty() ? kForever : Arguments("live_wait", a).number(0));
-  return state(s, {});
+  return live_state(s, {});
 }
 
 constexpr std::string_view kRun = "Run";
@@ -132,28 +132,28 @@ constexpr std::array kLiveCommands = {
     Command{"live_record", "", "", "live_record(\"FILE.trace\")",
             "Record the next runs into a file; without one they are not", &record},
     Command{"live_run", "F6", kRun, "live_run(\"file\")",
-            "Run the schedule over the mesh as it was opened, or as it is \"shown\"", &run},
+            "Run the schedule over the mesh as it was opened, or as it is \"shown\"", &live_run},
     Command{"live_start", "Shift+F6", kRun, "live_start(\"file\")",
             "Begin a run that is paused before its first call; from the mesh as live_run", &start},
     Command{"live_speed", "", "", "live_speed(CHANGES)",
             "Changes a second at most, each shown; 0: as fast as it can; the result is what holds",
             &speed},
     Command{"live_follow", "", kRun, "live_follow()",
-            "The camera goes to each change of a run, or stays", &follow},
+            "The camera goes to each change of a run, or stays", &live_follow},
     Command{"live_plugins", "", "", "live_plugins()",
             "Names of the operators of plugins, for live_schedule(\"operator NAME\")",
             &plugin_operators},
     Command{"live_pause", "F7", kRun, "live_pause()", "Pause the run after the call at hand",
-            &ask<Demand::pause>},
+            &live_ask<Demand::pause>},
     Command{"live_continue", "F8", kRun, "live_continue()", "Let a paused run go on",
-            &ask<Demand::go_on>},
+            &live_ask<Demand::go_on>},
     Command{"live_step", "F9", kRun, "live_step()",
             "Let the run go on to the next call that changes the mesh",
-            &ask<Demand::to_next_accepted>},
+            &live_ask<Demand::to_next_accepted>},
     Command{"live_step_call", "Shift+F9", kRun, "live_step_call()",
-            "Let the run go on to the next call, accepted or not", &ask<Demand::to_next_call>},
+            "Let the run go on to the next call, accepted or not", &live_ask<Demand::to_next_call>},
     Command{"live_step_pass", "F10", kRun, "live_step_pass()",
-            "Let the run go on to the end of the pass", &ask<Demand::to_next_pass>},
+            "Let the run go on to the end of the pass", &live_ask<Demand::to_next_pass>},
     Command{
         "live_hold", "", "", "live_hold(\"OPERATOR\", \"PARAMETER\", VALUE)",
         "In a paused run: from the next pass on an operator has that value; an event of its trace",
@@ -164,11 +164,11 @@ constexpr std::array kLiveCommands = {
         "was recorded",
         &debug},
     Command{"live_stop", "F12", kRun, "live_stop()", "End the run; the mesh stays as it is then",
-            &ask<Demand::stop>},
+            &live_ask<Demand::stop>},
     Command{"live_wait", "", "", "live_wait(SECONDS)",
             "Wait until the run has paused or ended; the result is live_state()", &wait},
     Command{"live_state", "", "", "live_state()",
-            "How far the run has come, as a table: state, error, passes, ...", &state},
+            "How far the run has come, as a table: state, error, passes, ...", &live_state},
 };
 
 }  // namespace

@@ -295,7 +295,6 @@ json blend(Session& s, const json& a) {
 }
 
 constexpr std::string_view kTrace = "Trace";
-using Kind = Condition::Kind;
 constexpr auto kForward = Direction::forward;
 constexpr auto kBack = Direction::back;
 
@@ -333,9 +332,9 @@ constexpr std::array kTraceCommands = {
             "To the call before that was accepted for good; \"all\": or undone with a caller",
             &run_to_accepted<kBack>},
     Command{"next_refused", "U", kTrace, "next_refused()", "To the next refused call",
-            &run_to_next<Kind::refused, kForward>},
+            &run_to_next<Condition::Kind::refused, kForward>},
     Command{"last_refused", "Shift+U", kTrace, "last_refused()", "To the refused call before",
-            &run_to_next<Kind::refused, kBack>},
+            &run_to_next<Condition::Kind::refused, kBack>},
     Command{"enter", "", "", "enter(CALL)", "To the beginning of a call", &enter},
     Command{"deepest", "D", kTrace, "deepest()",
             "To the deepest call of all; the result is its number", &deepest},

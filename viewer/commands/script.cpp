@@ -16,7 +16,7 @@ using nlohmann::json;
 
 namespace {
 
-json to_json(const ScriptValue& value) {
+json value_json(const ScriptValue& value) {
   switch (value.kind) {
     case ScriptValue::Kind::nothing:
       return nullptr;
@@ -31,11 +31,11 @@ json to_json(const ScriptValue& value) {
   }
   if (!value.list.empty()) {
     json list = json::array();
-    for (const ScriptValue& item : value.list) list.push_back(to_json(item));
+    for (const ScriptValue& item : value.list) list.push_back(value_json(item));
     return list;
   }
   json fields = json::object();
-  for (const auto& field : value.fields) fields[field.name] = to_json(field.value);
+  for (const auto& field : value.fields) fields[field.name] = value_json(field.value);
   return fields;
 }
 
@@ -58,7 +58,8 @@ ScriptValue to_value(const json& value) {
 
 void run_command(const Command& command, Session& session, WordCall& call) {
   json arguments = json::array();
-  for (int i = 1; i <= call.argument_count(); ++i) arguments.push_back(to_json(call.argument(i)));
+  for (int i = 1; i <= call.argument_count(); ++i)
+    arguments.push_back(value_json(call.argument(i)));
   session.host.arrange(session.document);  // places below are those of the next picture
   session.document.keep_view();
   const json result = command.run(session, arguments);

@@ -12,7 +12,7 @@ namespace tetmend::viewer {
 
 namespace {
 
-std::optional<glm::dvec3> corner_of(const std::vector<LocalTet>& tets, VertexHandle v) {
+std::optional<glm::dvec3> place_of_corner(const std::vector<LocalTet>& tets, VertexHandle v) {
   for (const LocalTet& tet : tets) {
     for (unsigned i = 0; i < 4; ++i) {
       if (tet.vertices[i] == v) return to_glm(tet.corners[i]);
@@ -29,8 +29,8 @@ Highlight highlight_covering(const CallStudy& study, const PolygonView& polygon,
   if (polygon.covering == nullptr) return highlight;
   const auto& ring = polygon.shell->ring;
   const auto line = [&](unsigned i, unsigned j, const Colour& colour, float width) {
-    const auto from = corner_of(study.before, ring[i]);
-    const auto to = corner_of(study.before, ring[j]);
+    const auto from = place_of_corner(study.before, ring[i]);
+    const auto to = place_of_corner(study.before, ring[j]);
     if (!from || !to) return;
     highlight.lines.push_back({glm::vec3(*from - origin), glm::vec3(*to - origin), colour, width});
   };

@@ -45,7 +45,7 @@ constexpr std::array<Form, 16> kForms = {
      {Kind::better, "better than", false, 0, 1, "better than QUALITY"},
      {Kind::near, "near", false, 0, 4, "near X Y Z RADIUS"}}};
 
-[[noreturn]] void fail(std::string_view part) {
+[[noreturn]] void refuse_part(std::string_view part) {
   throw Error(fmt::format("'{}' is no place to stop at: expected {}", part, condition_usage()));
 }
 
@@ -90,14 +90,14 @@ std::vector<std::string> split(std::string_view text) {
 std::uint32_t read_number(const std::string& word, std::string_view part) {
   std::uint32_t number = 0;
   const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
-  if (error != std::errc() || end != word.data() + word.size()) fail(part);
+  if (error != std::errc() || end != word.data() + word.size()) refuse_part(part);
   return number;
 }
 
 double read_value(const std::string& word, std::string_view part) {
   double value = 0;
   const auto [end, error] = from_chars(word.data(), word.data() + word.size(), value);
-  if (error != std::errc() || end != word.data() + word.size()) fail(part);
+  if (error != std::errc() || end != word.data() + word.size()) refuse_part(part);
   return value;
 }
 
@@ -108,7 +108,7 @@ Term read_term(std::span<const std::string> words) {
     const std::size_t size = keys.size() + (form.has_name ? 1 : 0) + form.numbers + form.values;
     if (words.size() < keys.size() || !std::equal(keys.begin(), keys.end(), words.begin()))
       continue;
-    if (words.size() != size) fail(part);
+    if (words.size() != size) refuse_part(part);
     Term term{form.kind, {}, {}, {}};
     auto rest = words.subspan(keys.size());
     if (form.has_name) {
@@ -123,7 +123,7 @@ Term read_term(std::span<const std::string> words) {
     for (std::size_t i = 0; i < form.values; ++i) term.values.push_back(read_value(rest[i], part));
     return term;
   }
-  fail(part);
+  refuse_part(part);
 }
 
 bool has_target(const ConditionCall& call, std::span<const std::uint32_t> numbers) {
@@ -349,12 +349,12 @@ Condition parse_condition(std::string_view text) {
     condition.for_good = true;
     words.resize(words.size() - 2);
   }
-  if (words.empty()) fail(text);
+  if (words.empty()) refuse_part(text);
   for (std::size_t begin = 0; begin <= words.size();) {
     const auto end = static_cast<std::size_t>(
         std::find(words.begin() + static_cast<std::ptrdiff_t>(begin), words.end(), "and") -
         words.begin());
-    if (end == begin) fail(text);
+    if (end == begin) refuse_part(text);
     condition.terms.push_back(read_term(std::span(words).subspan(begin, end - begin)));
     begin = end + 1;
   }

@@ -8,10 +8,8 @@ namespace tetmend::viewer {
 
 namespace {
 
-using Kind = Condition::Kind;
-
-bool touches(const Journal& journal, const Edit& edit, const Condition::Term& term) {
-  if (term.kind == Kind::vertex) {
+bool edit_touches(const Journal& journal, const Edit& edit, const Condition::Term& term) {
+  if (term.kind == Condition::Kind::vertex) {
     return edit.kind != Edit::Kind::replace_cavity && edit.vertex == VertexHandle(term.numbers[0]);
   }
   const TetHandle tet(term.numbers[0]);
@@ -81,7 +79,7 @@ void LiveBreakpoints::edit_made(const Journal& journal) {
     const auto& terms = condition.terms;
     if (std::none_of(terms.begin(), terms.end(), is_about_edit)) continue;
     const bool all = std::all_of(terms.begin(), terms.end(), [&](const Condition::Term& term) {
-      if (is_about_edit(term)) return touches(journal, edit, term);
+      if (is_about_edit(term)) return edit_touches(journal, edit, term);
       if (open_.empty()) return false;
       const Call& call = open_.back();
       return holds(term, {call.operator_name, call.level, call.target, {}, call.worst}, nowhere);

@@ -17,7 +17,7 @@ namespace {
 
 constexpr double kDegreesPerPixel = 180.0 / 500.0;
 constexpr double kMostPitch = 90;
-constexpr double kMargin = 1.06;
+constexpr double kRoomAround = 1.06;
 constexpr double kTiny = 1e-12;
 
 /// Pixel to [-1, 1] x [-1, 1], y upwards.
@@ -100,7 +100,7 @@ void Camera::fit(const Ball& ball, const Canvas& canvas) {
   target = ball.centre;
   const double narrow = std::min(1.0, aspect(canvas));
   const double half = std::atan(narrow * std::tan(glm::radians(kFieldOfView / 2)));
-  distance = kMargin * std::max(ball.radius, kTiny) / std::sin(half);
+  distance = kRoomAround * std::max(ball.radius, kTiny) / std::sin(half);
 }
 
 void Camera::fit(std::span<const glm::dvec3> points, const Canvas& canvas) {
@@ -118,7 +118,7 @@ void Camera::fit(std::span<const glm::dvec3> points, const Canvas& canvas) {
     const double across =
         std::max(std::abs(glm::dot(d, up())), std::abs(glm::dot(d, right())) / aspect(canvas));
     const double nearer = orthographic ? 0 : -glm::dot(d, forward());
-    distance = std::max(distance, kMargin * across / slope + nearer);
+    distance = std::max(distance, kRoomAround * across / slope + nearer);
   }
 }
 

@@ -22,19 +22,19 @@ constexpr float kWide = 5;
 
 /// Distance along the ray to the triangle, or infinity ([moeller_trumbore]).
 double distance_to(const Ray& ray, const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
-  constexpr double kNone = std::numeric_limits<double>::infinity();
+  constexpr double kMiss = std::numeric_limits<double>::infinity();
   const glm::dvec3 u = b - a;
   const glm::dvec3 v = c - a;
   const glm::dvec3 p = glm::cross(ray.direction, v);
   const double det = glm::dot(u, p);
-  if (det == 0) return kNone;
+  if (det == 0) return kMiss;
   const glm::dvec3 s = ray.origin - a;
   const double x = glm::dot(s, p) / det;
   const glm::dvec3 q = glm::cross(s, u);
   const double y = glm::dot(ray.direction, q) / det;
-  if (x < 0 || y < 0 || x + y > 1) return kNone;
+  if (x < 0 || y < 0 || x + y > 1) return kMiss;
   const double t = glm::dot(v, q) / det;
-  return t >= 0 ? t : kNone;
+  return t >= 0 ? t : kMiss;
 }
 
 /// Triangles without a tet are passed over.
@@ -60,7 +60,7 @@ glm::dvec3 at(const TetMesh& mesh, VertexHandle v) {
 }
 
 /// The tets of a vertex, from face to face. Needs no marks by slot as star() does.
-std::vector<TetHandle> tets_at(const TetMesh& mesh, VertexHandle v) {
+std::vector<TetHandle> tets_of_vertex(const TetMesh& mesh, VertexHandle v) {
   std::vector<TetHandle> found = {mesh.tet_of(v)};
   std::unordered_set<std::uint32_t> known = {found.front().index()};
   for (std::size_t i = 0; i < found.size(); ++i) {
@@ -88,9 +88,9 @@ std::vector<VertexHandle> vertices_around(const TetMesh& mesh, VertexHandle v,
 }
 
 /// Collects the parts of a highlight.
-class Painter {
+class SelectionPainter {
  public:
-  Painter(const TetMesh& mesh, const glm::dvec3& origin) : mesh_(mesh), origin_(origin) {}
+  SelectionPainter(const TetMesh& mesh, const glm::dvec3& origin) : mesh_(mesh), origin_(origin) {}
 
   void line(VertexHandle a, VertexHandle b, const Colour& colour, float width) {
     out_.lines.push_back(
@@ -134,7 +134,7 @@ class Painter {
   }
   void paint(VertexHandle v) {
     if (!mesh_.tet_of(v).is_valid()) return;
-    for (const TetHandle t : tets_at(mesh_, v)) {
+    for (const TetHandle t : tets_of_vertex(mesh_, v)) {
       const auto c = mesh_.vertices(HalfFace(t, mesh_.local_index(t, v)));
       for (unsigned i = 0; i < 3; ++i) {
         line(c[i], c[(i + 1) % 3], kLinkEdgeColour, 1);
@@ -283,7 +283,7 @@ class Teller {
     row("kind", mesh_.is_boundary(v) ? "on the boundary" : mesh_.is_fixed(v) ? "fixed" : "free");
     if (!mesh_.tet_of(v).is_valid()) return;
     Quality worst = std::numeric_limits<Quality>::infinity();
-    const auto ball = tets_at(mesh_, v);
+    const auto ball = tets_of_vertex(mesh_, v);
     for (const TetHandle t : ball) worst = std::min(worst, mesh_.quality(t));
     row("ball (tets)", fmt::format("{}", ball.size()));
     row("worst quality", fmt::format("{:.4f}", worst));
@@ -380,7 +380,7 @@ Ball ball_around(const TetMesh& mesh, const Selection& selection) {
   } else if (const auto* v = std::get_if<VertexHandle>(&selection)) {
     points.push_back(at(mesh, *v));
     if (mesh.tet_of(*v).is_valid()) {
-      for (const VertexHandle w : vertices_around(mesh, *v, tets_at(mesh, *v))) {
+      for (const VertexHandle w : vertices_around(mesh, *v, tets_of_vertex(mesh, *v))) {
         points.push_back(at(mesh, w));
       }
     }
@@ -396,7 +396,7 @@ Ball ball_around(const TetMesh& mesh, const Selection& selection) {
 }
 
 Highlight highlight(const TetMesh& mesh, const Selection& selection, const glm::dvec3& origin) {
-  Painter painter(mesh, origin);
+  SelectionPainter painter(mesh, origin);
   std::visit([&](const auto& what) { painter.paint(what); }, selection);
   return painter.take();
 }

@@ -12,9 +12,9 @@ ImVec2 to_imgui(const figure::Place& p) {
   return {static_cast<float>(p.x), static_cast<float>(p.y)};
 }
 
-class Painter {
+class CanvasPainter {
  public:
-  explicit Painter(ImDrawList& list) : list_(list) {}
+  explicit CanvasPainter(ImDrawList& list) : list_(list) {}
 
   void operator()(const figure::Area& area) const {
     std::vector<ImVec2> corners;
@@ -82,7 +82,7 @@ Colour light(std::uint8_t alpha) {
 /// What is pointed at: light behind words and lines, and over areas.
 class Light {
  public:
-  explicit Light(const Painter& painter) : painter_(painter) {}
+  explicit Light(const CanvasPainter& painter) : painter_(painter) {}
 
   void behind(const figure::Shape& shape) const {
     if (const auto* stroke = std::get_if<figure::Stroke>(&shape)) {
@@ -111,7 +111,7 @@ class Light {
   }
 
  private:
-  const Painter& painter_;
+  const CanvasPainter& painter_;
 };
 
 }  // namespace
@@ -123,7 +123,7 @@ Colour colour_of(ImGuiCol part) {
 }
 
 void paint(const figure::Drawing& drawing, ImDrawList& list) {
-  const Painter painter(list);
+  const CanvasPainter painter(list);
   for (const figure::Shape& shape : drawing.shapes) std::visit(painter, shape);
 }
 
@@ -148,7 +148,7 @@ void show_linked(const char* id, std::span<const LinkedDrawing> drawings, float 
   ImGui::InvisibleButton(id, {side, side});
   const bool is_hovered = ImGui::IsItemHovered();
   const ImVec2 mouse = ImGui::GetIO().MousePos;
-  const Painter painter(*ImGui::GetWindowDrawList());
+  const CanvasPainter painter(*ImGui::GetWindowDrawList());
   const Light light(painter);
   const Pointed& pointed = document.pointed();
   for (const LinkedDrawing& drawing : drawings) {

@@ -127,7 +127,7 @@ ImVec2 corner_of(const Area& area) {
 }
 
 /// A window that fills an area. False: it is empty; then do not end it.
-bool begin(const char* name, const Area& area, ImGuiWindowFlags more = 0) {
+bool begin_area(const char* name, const Area& area, ImGuiWindowFlags more = 0) {
   if (area.is_empty()) return false;
   ImGui::SetNextWindowPos(corner_of(area));
   ImGui::SetNextWindowSize({area.width, area.height});
@@ -234,7 +234,7 @@ void teach(Session& session, const Layout& layout) {
   const float height = column.height / static_cast<float>(std::max(others, 1));
   const auto show = [&](Focus focus, const char* name, void (*draw)(Session&)) {
     if (!shows(focus) || column.is_empty()) return;
-    if (begin(name, {column.x, column.y, column.width, height})) {
+    if (begin_area(name, {column.x, column.y, column.width, height})) {
       draw(session);
       ImGui::End();
     }
@@ -250,12 +250,12 @@ void teach(Session& session, const Layout& layout) {
   };
   show(Focus::ring, "##teaching", others == 1 ? +ring_alone : +ring);
   show(Focus::tables, "##tables", &draw_tables);
-  if (begin("##code", code)) {
+  if (begin_area("##code", code)) {
     constexpr bool kWhole = true;
     draw_algorithm_panel(session, kWhole);
     ImGui::End();
   }
-  if (begin("##lesson", layout.strip)) {
+  if (begin_area("##lesson", layout.strip)) {
     if (session.document.debugger()->lesson()) {
       draw_lesson_panel(session);
     } else {
@@ -310,7 +310,7 @@ void show_toast(Document& document, const Area& canvas, float width) {
 void show_status(Session& session, const Area& area, float scale) {
   const Document& document = session.document;
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {8 * scale, 3 * scale});
-  if (begin("##status", area, ImGuiWindowFlags_NoScrollbar)) {
+  if (begin_area("##status", area, ImGuiWindowFlags_NoScrollbar)) {
     if (document.has_mesh()) {
       const Scene& scene = session.document.scene();
       const bool is_elsewhere = needs_toast(document.message, area.width);
@@ -472,7 +472,7 @@ void Interface::panels_around(Session& session, const Layout& layout) {
   constexpr float kMostOfOnlyColumn = 0.32F;
   constexpr float kEventLines = 5.5F;
   if (layout.is_teaching) return teach(session, layout);
-  if (begin("##left", layout.left)) {
+  if (begin_area("##left", layout.left)) {
     list_side(session, Side::left);
     note_spare_room();
     ImGui::End();
@@ -485,20 +485,20 @@ void Interface::panels_around(Session& session, const Layout& layout) {
   was_in_call_ = is_in_call;
   if (has_trace && !right.is_empty()) {
     const float share = layout.is_one_column ? kMostOfOnlyColumn : kMostOfColumn;
-    if (begin("##algorithm", dock_algorithm(session, right, share))) {
+    if (begin_area("##algorithm", dock_algorithm(session, right, share))) {
       draw_algorithm_panel(session);
       ImGui::End();
     }
   }
   // In tabs, what has happened would be out of sight where the ring is seen.
   if (layout.is_one_column && is_in_call) {
-    if (begin("##event", dock(right, kEventLines * ImGui::GetTextLineHeightWithSpacing()))) {
+    if (begin_area("##event", dock(right, kEventLines * ImGui::GetTextLineHeightWithSpacing()))) {
       draw_last_event(session);
       draw_stack(session);
       ImGui::End();
     }
   }
-  if (begin("##right", right)) {
+  if (begin_area("##right", right)) {
     if (layout.is_one_column && has_trace) {
       list_in_tabs(session, enters, leaves, is_in_call);
     } else {
@@ -508,7 +508,7 @@ void Interface::panels_around(Session& session, const Layout& layout) {
     }
     ImGui::End();
   }
-  if (has_trace && begin("##strip", layout.strip, ImGuiWindowFlags_NoScrollbar)) {
+  if (has_trace && begin_area("##strip", layout.strip, ImGuiWindowFlags_NoScrollbar)) {
     draw_timeline_strip(session);
     ImGui::End();
   }

@@ -68,8 +68,8 @@ float height_of_text(const Debugger& debugger, float width, float most, float sc
 
 /// At a step of a lesson the text stands below picture and column; elsewhere the column, for ring and
 /// algorithm, is as high as the window.
-void teach(const Debugger& debugger, Layout& layout, float width, float top, float bottom,
-           float scale) {
+void lay_out_teaching(const Debugger& debugger, Layout& layout, float width, float top,
+                      float bottom, float scale) {
   layout.is_teaching = true;
   layout.text = kTeachingText;
   layout.focus = focus_of(debugger);
@@ -104,7 +104,7 @@ Layout lay_out(const Document& document, float scale) {
   const bool has_trace = document.debugger() != nullptr;
   if (has_trace && document.teaching && width >= kLeastTeachingWidth * scale &&
       height >= kLeastTeachingHeight * scale) {
-    teach(*document.debugger(), layout, width, top, bottom, scale);
+    lay_out_teaching(*document.debugger(), layout, width, top, bottom, scale);
     return layout;
   }
   const bool is_narrow = has_trace && width < kLeastForTwo * scale;

@@ -56,7 +56,7 @@ std::string ending_of(const Call& call) {
 }
 
 /// A click goes to the call.
-void list_calls(Session& session, const History& history, bool in_trials) {
+void show_calls(Session& session, const History& history, bool in_trials) {
   const Debugger& debugger = *session.document.debugger();
   std::uint32_t chosen = kNoCall;
   for (const HistoryCall& each : history.calls) {
@@ -128,11 +128,11 @@ void list_what_there_was(Session& session, const History& history) {
   }
   if (history.calls.empty()) return;
   if (ImGui::TreeNodeEx("calls", ImGuiTreeNodeFlags_DefaultOpen)) {
-    list_calls(session, history, false);
+    show_calls(session, history, false);
     ImGui::TreePop();
   }
   if (ImGui::TreeNode("calls in trials that were undone")) {
-    list_calls(session, history, true);
+    show_calls(session, history, true);
     ImGui::TreePop();
   }
   if (history.subject.size() > 1 && ImGui::TreeNode("its parts")) {

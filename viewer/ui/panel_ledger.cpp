@@ -85,7 +85,7 @@ bool show_operator(const std::string& name) {
 }
 
 /// Rows of operators, who refused most first; unfolded, a row for each way to end.
-void show_rows(Debugger& debugger, std::string& chosen) {
+void show_ledger_rows(Debugger& debugger, std::string& chosen) {
   constexpr ImGuiTableFlags kLooks = ImGuiTableFlags_RowBg;
   const ImVec2 padding = {0.2F * ImGui::GetFontSize(), ImGui::GetStyle().CellPadding.y};
   ImGui::PushStyleVar(ImGuiStyleVar_CellPadding, padding);  // names have the room
@@ -180,7 +180,7 @@ void draw_ledger_panel(Session& session) {
                   grouped(debugger.ledger().lasting), grouped(debugger.ledger().edits)));
   if (debugger.other() != nullptr) draw_other_run(session);
   std::string chosen;
-  show_rows(debugger, chosen);
+  show_ledger_rows(debugger, chosen);
   show_nearness(all);
   if (ImGui::SmallButton(debugger.other() != nullptr ? "another run ..."
                                                      : "beside another run ...")) {

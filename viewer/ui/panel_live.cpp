@@ -19,7 +19,7 @@ namespace tetmend::viewer::ui {
 
 namespace {
 
-constexpr const char* kTrace = "tetmend-live.trace";
+constexpr const char* kTraceFile = "tetmend-live.trace";
 
 /// Runs `work`; an error becomes the message of the document.
 template <class Work>
@@ -111,8 +111,8 @@ void edit_parameters(Document& document) {
     edit_parameter(document, parameter);
   }
   bool record = !document.live.trace.empty();
-  if (ImGui::Checkbox("record", &record)) document.live.trace = record ? kTrace : "";
-  if (ImGui::IsItemHovered()) ImGui::SetTooltip("the next run, into the file %s", kTrace);
+  if (ImGui::Checkbox("record", &record)) document.live.trace = record ? kTraceFile : "";
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip("the next run, into the file %s", kTraceFile);
 }
 
 /// Runs a command, as its key does.
@@ -191,7 +191,7 @@ void draw_curve(const char* name, const LiveProgress& run, const Value& value) {
                    {ImGui::GetContentRegionAvail().x, 2 * ImGui::GetFontSize()});
 }
 
-void draw_curves(const LiveProgress& run) {
+void draw_run_curves(const LiveProgress& run) {
   if (run.passes.empty()) return;
   const QualityIndicators& last = run.passes.back().after;
   ImGui::TextDisabled("bad tets, logarithmic: %zu, now %zu", run.before.n_bad, last.n_bad);
@@ -274,7 +274,7 @@ void draw_live_panel(Session& session) {
   buttons(session, run.state);
   if (session.document.debugger() == nullptr || session.document.debugs_live()) watch(session);
   tell_progress(run);
-  draw_curves(run);
+  draw_run_curves(run);
   list_passes(run);
 }
 

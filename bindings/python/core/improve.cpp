@@ -23,7 +23,7 @@ namespace {
 
 using Settings = std::vector<std::pair<std::string, std::string>>;  ///< as on the command line
 
-const char* to_text(Stage stage) {
+const char* stage_name(Stage stage) {
   switch (stage) {
     case Stage::building:
       return "building";
@@ -90,7 +90,7 @@ class Callbacks {
     bool goes_on = true;
     guarded([&] {
       const py::object answer =
-          progress_(Moment{to_text(progress.stage), std::string(progress.phase), progress.round,
+          progress_(Moment{stage_name(progress.stage), std::string(progress.phase), progress.round,
                            progress.share, progress.now});
       goes_on = answer.is_none() || PyObject_IsTrue(answer.ptr()) != 0;
       if (PyErr_Occurred() != nullptr) throw py::error_already_set();

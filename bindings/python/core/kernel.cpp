@@ -438,7 +438,7 @@ py::object split(PythonEdit& self, const Numbers& of, const std::array<double, 3
   return made.is_valid() ? py::object(py::int_(made.index())) : py::object(py::none());
 }
 
-const char* text_of(EditResult result) {
+const char* result_text(EditResult result) {
   switch (result) {
     case EditResult::made:
       return "made";
@@ -496,7 +496,7 @@ void add_edit(py::module_& module) {
                return scope.replace(at, corners_of(self.mesh, created));
              });
            })
-      .def("result", [](const Self& self) { return text_of(self.result); })
+      .def("result", [](const Self& self) { return result_text(self.result); })
       .def("before", [](Self& self) { return to_array(self.mesh.scope(self.depth).before()); })
       .def("after", [](Self& self) { return to_array(self.mesh.scope(self.depth).after()); })
       .def("created", [](Self& self) { return numbers_of(self.mesh.scope(self.depth).created()); })

@@ -33,8 +33,8 @@ std::optional<py::array> find(const Arrays& given, const std::string& name) {
   return found->second.cast<py::array>();
 }
 
-std::vector<std::int32_t> labels_of(const Arrays& given, const std::string& name,
-                                    std::size_t count) {
+std::vector<std::int32_t> given_labels(const Arrays& given, const std::string& name,
+                                       std::size_t count) {
   const auto array = find(given, name);
   return array ? read_labels(name, *array, count) : std::vector<std::int32_t>();
 }
@@ -43,7 +43,7 @@ template <std::size_t N>
 void read(const Arrays& given, const char* name, const char* label_name, std::size_t points,
           std::vector<std::array<std::uint32_t, N>>& elements, std::vector<std::int32_t>& labels) {
   if (const auto array = find(given, name)) elements = read_elements<N>(name, *array, points);
-  labels = labels_of(given, label_name, elements.size());
+  labels = given_labels(given, label_name, elements.size());
 }
 
 std::vector<DataArray> data_of(const Arrays& given, const std::string& name) {
@@ -127,7 +127,7 @@ SecondOrderTets with_mid_nodes(const Mesh& mesh) {
 }
 
 /// The form in which tets are given and taken: (m, 4), or (m, 10) of second order.
-py::array tets_of(const Mesh& mesh, const py::object& self) {
+py::array tet_array(const Mesh& mesh, const py::object& self) {
   if (mesh.mid_nodes().empty()) return view(mesh.tets(), self);
   auto kept = std::make_unique<SecondOrderTets>(with_mid_nodes(mesh));
   if (kept->empty()) return view(mesh.tets(), self);
@@ -145,9 +145,9 @@ std::shared_ptr<Mesh> make_mesh(const py::array& points, const py::array& tets, 
   arrays.points = read_points(points);
   const std::size_t n = arrays.points.size();
   read_tets(tets, n, arrays);
-  arrays.tet_labels = labels_of(given, "labels", arrays.tets.size());
-  arrays.tet_parts = labels_of(given, "parts", arrays.tets.size());
-  arrays.point_labels = labels_of(given, "point_labels", n);
+  arrays.tet_labels = given_labels(given, "labels", arrays.tets.size());
+  arrays.tet_parts = given_labels(given, "parts", arrays.tets.size());
+  arrays.point_labels = given_labels(given, "point_labels", n);
   read<3>(given, "triangles", "triangle_labels", n, arrays.triangles, arrays.triangle_labels);
   read<2>(given, "edges", "edge_labels", n, arrays.edges, arrays.edge_labels);
   if (const auto required = find(given, "required")) {
@@ -209,7 +209,7 @@ void add_views(py::class_<Mesh, std::shared_ptr<Mesh>>& type) {
     return view(py::dtype::of<double>(), {static_cast<py::ssize_t>(points.size()), 3},
                 points.data(), self);
   });
-  add_view(type, "tets", [](const Mesh& m, const py::object& self) { return tets_of(m, self); });
+  add_view(type, "tets", [](const Mesh& m, const py::object& self) { return tet_array(m, self); });
   add_view(type, "triangles",
            [](const Mesh& m, const py::object& self) { return view(m.triangles(), self); });
   add_view(type, "edges",

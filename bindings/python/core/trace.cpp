@@ -25,7 +25,7 @@ void add_range(py::dict& made, const Trace::Range& range) {
   made["seconds"] = py::make_tuple(range.begin_seconds, range.end_seconds);
 }
 
-py::dict to_dict(const Trace::Call& call) {
+py::dict dict_of(const Trace::Call& call) {
   py::dict made("operator"_a = call.operator_name, "settings"_a = call.settings,
                 "parent"_a = call.parent, "subtree_end"_a = call.subtree_end,
                 "level"_a = call.level, "depth"_a = call.depth, "edits"_a = call.edits,
@@ -37,14 +37,14 @@ py::dict to_dict(const Trace::Call& call) {
   return made;
 }
 
-py::dict to_dict(const Trace::Visit& visit) {
+py::dict dict_of(const Trace::Visit& visit) {
   py::dict made("tet"_a = py::tuple(py::cast(visit.tet)), "quality"_a = visit.quality,
                 "calls"_a = py::make_tuple(visit.first_call, visit.last_call));
   add_range(made, visit.events);
   return made;
 }
 
-py::dict to_dict(const Trace::Pass& pass) {
+py::dict dict_of(const Trace::Pass& pass) {
   py::dict made("name"_a = pass.name, "round"_a = pass.round,
                 "calls"_a = py::make_tuple(pass.first_call, pass.last_call),
                 "n_bad"_a = pass.after.n_bad, "q_worst"_a = pass.after.q_worst,
@@ -53,7 +53,7 @@ py::dict to_dict(const Trace::Pass& pass) {
   return made;
 }
 
-py::dict to_dict(const Trace::Entry& entry) {
+py::dict dict_of(const Trace::Entry& entry) {
   return py::dict("operator"_a = entry.operator_name, "level"_a = entry.level,
                   "ending"_a = entry.ending, "reason"_a = entry.reason,
                   "refused"_a = entry.is_refusal, "calls"_a = entry.calls, "share"_a = entry.share,
@@ -62,7 +62,7 @@ py::dict to_dict(const Trace::Entry& entry) {
 
 py::list ledger_of(const Trace& trace) {
   py::list made;
-  for (const Trace::Entry& entry : trace.ledger()) made.append(to_dict(entry));
+  for (const Trace::Entry& entry : trace.ledger()) made.append(dict_of(entry));
   return made;
 }
 
@@ -87,7 +87,7 @@ py::list worse_than(const Trace& trace, const Trace& other) {
   return made;
 }
 
-py::dict to_dict(const Trace::Event& event) {
+py::dict dict_of(const Trace::Event& event) {
   return py::dict("kind"_a = event.kind, "name"_a = event.name, "seconds"_a = event.seconds,
                   "vertices"_a = py::tuple(py::cast(event.vertices)), "verdict"_a = event.verdict,
                   "removed"_a = event.removed, "created"_a = event.created);
@@ -95,7 +95,7 @@ py::dict to_dict(const Trace::Event& event) {
 
 py::list events_of(const Trace& trace, std::uint64_t first, std::uint64_t last) {
   py::list made;
-  for (const Trace::Event& event : trace.events(first, last)) made.append(to_dict(event));
+  for (const Trace::Event& event : trace.events(first, last)) made.append(dict_of(event));
   return made;
 }
 
@@ -121,9 +121,9 @@ void add_trace(py::module_& module) {
       .def_property_readonly("call_count", &Trace::call_count)
       .def_property_readonly("visit_count", &Trace::visit_count)
       .def_property_readonly("pass_count", &Trace::pass_count)
-      .def("call", [](const Trace& trace, std::uint32_t i) { return to_dict(trace.call(i)); })
-      .def("visit", [](const Trace& trace, std::size_t i) { return to_dict(trace.visit(i)); })
-      .def("pass_", [](const Trace& trace, std::size_t i) { return to_dict(trace.pass(i)); })
+      .def("call", [](const Trace& trace, std::uint32_t i) { return dict_of(trace.call(i)); })
+      .def("visit", [](const Trace& trace, std::size_t i) { return dict_of(trace.visit(i)); })
+      .def("pass_", [](const Trace& trace, std::size_t i) { return dict_of(trace.pass(i)); })
       .def("events", &events_of)
       .def("mesh_at",
            [](const Trace& trace, std::uint64_t n) {
