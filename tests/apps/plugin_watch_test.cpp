@@ -11,16 +11,13 @@
 #include <sys/resource.h>
 
 #include "tests/apps/program.h"
+#include "tests/support/plugin_file.h"
 #include "tests/support/text.h"
 
 using namespace tetmend;
 using namespace tetmend::test;
 
 namespace {
-
-std::string plugin_file(const std::string& name) {
-  return std::string(TETMEND_TEST_PLUGINS) + "/" + name + ".so";
-}
 
 struct Trial {
   std::string plugin;

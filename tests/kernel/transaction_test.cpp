@@ -16,6 +16,7 @@
 #include "kernel/star.h"
 #include "kernel/surface_fingerprint.h"
 #include "kernel/workspace.h"
+#include "tests/support/mesh_parts.h"
 #include "tests/support/zoo.h"
 
 using namespace tetmend;
@@ -95,16 +96,6 @@ Point middle(const TetMesh& mesh, const TetVertices& v) {
 
 EditResult replace(Transaction& tx, const Cavity& cavity) {
   return tx.replace_cavity(cavity.old, cavity.created);
-}
-
-HalfFace inner_face(const TetMesh& mesh) {
-  for (const TetHandle t : live_tets(mesh)) {
-    for (unsigned f = 0; f < 4; ++f) {
-      if (!mesh.is_boundary(HalfFace(t, f))) return HalfFace(t, f);
-    }
-  }
-  FAIL("no inner face");
-  return {};
 }
 
 /// A 2-3 flip whose new tets are all positive.

@@ -16,16 +16,6 @@ using namespace tetmend;
 using namespace tetmend::viewer;
 using test::TestSession;
 
-namespace {
-
-struct TraceSession : TestSession {
-  explicit TraceSession(const std::filesystem::path& trace) : TestSession(test::one_tet()) {
-    document.open(trace);
-  }
-};
-
-}  // namespace
-
 TEST_CASE("a trace is opened like a mesh, and a mesh after it closes it") {
   const test::TracedBall trace;
   TraceSession s(trace.path());
