@@ -167,12 +167,12 @@ Real direct_mean_ratio(const TetPoints& p) {
   return sign_of_volume(p) * 3 * root * root / map.squaredNorm();
 }
 
-struct Reference {
+struct ReferenceMeasure {
   const char* name;
   Real (*evaluate)(const TetPoints& p);
 };
 
-constexpr std::array<Reference, 7> kReferences = {{
+constexpr std::array<ReferenceMeasure, 7> kReferences = {{
     {"min_sine", &direct_minimum_sine},
     {"min_angle", &direct_minimum_angle},
     {"volume_length", &direct_volume_length},
@@ -188,7 +188,7 @@ constexpr std::array<Reference, 7> kReferences = {{
 
 TEST_CASE("every quality measure agrees with a direct formula on random tets") {
   REQUIRE(quality_measures().size() == kReferences.size());
-  for (const Reference& reference : kReferences) {
+  for (const ReferenceMeasure& reference : kReferences) {
     const QualityMeasure& measure = find_quality_measure(reference.name);
     for (const TetPoints& p : random_tets(400)) {
       const double expected = static_cast<double>(reference.evaluate(p));

@@ -20,11 +20,11 @@ using namespace tetmend::test;
 
 namespace {
 
-using SurfaceTriangle = PolyhedronProblem::Triangle;
+using PolyhedronFace = PolyhedronProblem::Triangle;
 
 struct ClosedSurface {
   std::vector<Point> points;
-  std::vector<SurfaceTriangle> surface;
+  std::vector<PolyhedronFace> surface;
 };
 
 //            1               Around the edge 0-1, which is not in the surface, the ring 2 3 4 5.

@@ -21,7 +21,7 @@ using namespace tetmend::test;
 
 namespace {
 
-const auto kGoOn = [](std::size_t) { return true; };
+const auto kEachStep = [](std::size_t) { return true; };
 
 /// A cube of cells^3 cells whose inner vertices are moved by up to `jitter` cells.
 TangledPatch cube_patch(unsigned cells, double jitter, std::uint64_t seed) {
@@ -130,7 +130,7 @@ TEST_CASE("cubes with up to 45 percent of inverted tets are untangled, and fixed
       least = std::min(least, share(patch));
       most = std::max(most, share(patch));
       Untangler untangler(patch);
-      CHECK(untangler.untangle({}, kGoOn) == 0);
+      CHECK(untangler.untangle({}, kEachStep) == 0);
       CHECK(count_inverted_of(patch, untangler.points()) == 0);
       CHECK(stayed(patch, untangler.points()));
       CHECK(untangler.looks() < 150);
@@ -144,7 +144,7 @@ TEST_CASE("a patch that is far from 0 and of another size is untangled just so")
   TangledPatch patch = cube_patch(5, 1.5, 4);
   for (Point& p : patch.points) p = 1e-3 * p + Point(10, -20, 30);
   Untangler untangler(patch);
-  CHECK(untangler.untangle({}, kGoOn) == 0);
+  CHECK(untangler.untangle({}, kEachStep) == 0);
   CHECK(count_inverted_of(patch, untangler.points()) == 0);
 }
 
@@ -155,7 +155,7 @@ TEST_CASE("the number of threads does not show in an untangled patch") {
   for (const int threads : {1, 2, 3, 8}) {
     on_threads(threads, [&] {
       Untangler untangler(patch);
-      CHECK(untangler.untangle({}, kGoOn) == 0);
+      CHECK(untangler.untangle({}, kEachStep) == 0);
       const std::vector<Point> points(untangler.points().begin(), untangler.points().end());
       if (first.empty()) first = points;
       CHECK(points == first);
@@ -173,7 +173,7 @@ TEST_CASE("tets that cannot be positive do not hold back the others") {
   patch.tets.push_back({0, v, v + 1, v + 2});
   patch.tets.push_back({0, v, v + 2, v + 1});
   Untangler untangler(patch);
-  CHECK(untangler.untangle({}, kGoOn) == 1);
+  CHECK(untangler.untangle({}, kEachStep) == 1);
   CHECK(count_inverted_of(patch, untangler.points()) == 1);
 }
 
@@ -184,7 +184,7 @@ TEST_CASE("an untangler looks as often as it may, and never ends with more inver
   const std::size_t before = count_inverted_of(patch, patch.points);
   for (unsigned looks = 1; looks < 40; ++looks) {
     Untangler hurried(patch);
-    hurried.untangle({.looks = looks}, kGoOn);
+    hurried.untangle({.looks = looks}, kEachStep);
     CHECK(hurried.looks() < looks + 15);
     CHECK(count_inverted_of(patch, hurried.points()) <= before);
   }
@@ -208,8 +208,8 @@ TEST_CASE("a patch without free vertices, or without tets, is as it was") {
   TangledPatch patch = cube_patch(3, 2, 1);
   patch.free_count = 0;
   Untangler untangler(patch);
-  CHECK(untangler.untangle({}, kGoOn) == count_inverted_of(patch, patch.points));
+  CHECK(untangler.untangle({}, kEachStep) == count_inverted_of(patch, patch.points));
   CHECK(std::equal(patch.points.begin(), patch.points.end(), untangler.points().begin()));
   Untangler nothing({});
-  CHECK(nothing.untangle({}, kGoOn) == 0);
+  CHECK(nothing.untangle({}, kEachStep) == 0);
 }
