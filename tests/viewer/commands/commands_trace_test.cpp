@@ -15,6 +15,7 @@
 using namespace tetmend;
 using namespace tetmend::viewer;
 using test::TestSession;
+using test::TraceSession;
 
 TEST_CASE("a trace is opened like a mesh, and a mesh after it closes it") {
   const test::TracedBall trace;
