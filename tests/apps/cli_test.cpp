@@ -15,6 +15,7 @@
 #include "ops/registry.h"
 #include "schedule/limit/surface_limit.h"
 #include "tests/apps/program.h"
+#include "tests/support/assets.h"
 #include "tests/support/text.h"
 #include "tests/support/turned_ring.h"
 
@@ -23,12 +24,7 @@ using namespace tetmend::test;
 
 namespace {
 
-const std::filesystem::path kMeshes = std::filesystem::path(TETMEND_SOURCE_DIR) / "assets/meshes";
 const std::array<std::string, 3> kAssets = {"bracket.meshb", "two_materials.mesh", "sheet.mesh"};
-
-std::string asset(const std::string& name) {
-  return (kMeshes / name).string();
-}
 
 /// One line, from tetmend, and nothing on stdout.
 void check_complaint(const Outcome& outcome, int status) {

@@ -10,13 +10,12 @@
 #include <tetmend/option_text.h>
 
 #include "tests/apps/program.h"
+#include "tests/support/assets.h"
 
 using namespace tetmend;
 using namespace tetmend::test;
 
 namespace {
-
-const std::string kMesh = std::string(TETMEND_SOURCE_DIR) + "/assets/meshes/two_materials.mesh";
 
 /// What the library says of an option; empty: nothing.
 std::string message_of_library(const std::string& name, const std::string& value) {
@@ -128,7 +127,8 @@ TEST_CASE("of a wrong value the command line says what the library says") {
     CAPTURE(value);
     const std::string expected = message_of_library(name, value);
     CHECK(expected.starts_with(name));
-    std::vector<std::string> arguments = {"improve", kMesh, "-o", (folder / "out.mesh").string(),
+    std::vector<std::string> arguments = {"improve", asset("two_materials.mesh"), "-o",
+                                          (folder / "out.mesh").string(),
                                           "--" + name + "=" + value};
     if (name.starts_with("trace-")) {
       arguments.push_back("--trace");
@@ -149,8 +149,8 @@ TEST_CASE("an option that does nothing without another asks for it") {
   const TempFolder folder;
   for (const auto& [name, value, needed] : std::vector<std::array<std::string, 3>>{
            {"feature-angle", "30", "surface"}, {"trace-depth", "1", "trace"}}) {
-    const Outcome outcome =
-        run_program({"improve", kMesh, "-o", (folder / "out.mesh").string(), "--" + name, value});
+    const Outcome outcome = run_program({"improve", asset("two_materials.mesh"), "-o",
+                                         (folder / "out.mesh").string(), "--" + name, value});
     CHECK(outcome.status == 2);
     CHECK(outcome.err ==
           "tetmend: --" + name + " requires --" + needed + " (see tetmend improve --help)\n");

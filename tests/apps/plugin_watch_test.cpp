@@ -11,16 +11,13 @@
 #include <sys/resource.h>
 
 #include "tests/apps/program.h"
+#include "tests/support/plugin_file.h"
 #include "tests/support/text.h"
 
 using namespace tetmend;
 using namespace tetmend::test;
 
 namespace {
-
-std::string plugin_file(const std::string& name) {
-  return std::string(TETMEND_TEST_PLUGINS) + "/" + name + ".so";
-}
 
 struct Trial {
   std::string plugin;
@@ -49,9 +46,9 @@ class NoCore {
 /// Improves a small mesh with one operator, over a file that is there already; checks that nothing
 /// else is left in its folder.
 struct Ended {
-  Outcome outcome;
+  test::Outcome outcome;
   std::string written;
-  Outcome trace;  // of looking at what is there of it
+  test::Outcome trace;  // of looking at what is there of it
 };
 Ended improve(const Trial& trial) {
   const TempFolder folder;
@@ -83,7 +80,7 @@ TEST_CASE("an attempt that does not come back is named, and the time limit ends 
         improve({"hanging",
                  "hangs",
                  {"--attempt-limit", "0.2", "--time-limit", "0.5", "--threads", threads}});
-    const Outcome& outcome = ended.outcome;
+    const test::Outcome& outcome = ended.outcome;
     const std::string& written = ended.written;
     CAPTURE(outcome.err);
     CHECK(outcome.status == 1);
@@ -108,7 +105,7 @@ TEST_CASE("an attempt that does not come back is named once, and not at all with
 
 TEST_CASE("attempts that are slow and come back end in time, with what was reached") {
   const Ended ended = improve({"hanging", "slow", {"--time-limit", "0.5"}});
-  const Outcome& outcome = ended.outcome;
+  const test::Outcome& outcome = ended.outcome;
   const std::string& written = ended.written;
   CHECK(outcome.err.empty());
   CHECK(outcome.status == 0);
@@ -129,7 +126,7 @@ TEST_CASE("a crash in an attempt is told with operator, plugin and target before
       CAPTURE(op);
       CAPTURE(threads);
       const Ended ended = improve({"crashing", op, {"--threads", threads}});
-      const Outcome& outcome = ended.outcome;
+      const test::Outcome& outcome = ended.outcome;
       const std::string& written = ended.written;
       CAPTURE(outcome.err);
       CHECK(outcome.status == 128 + signal);
@@ -155,7 +152,7 @@ TEST_CASE("after a crash, and after an attempt that did not come back, the trace
 }
 
 TEST_CASE("check-plugin names an attempt that does not come back, and gives up") {
-  const Outcome outcome =
+  const test::Outcome outcome =
       run_program({"check-plugin", plugin_file("hanging"), "--attempt-limit", "0.1"});
   CAPTURE(outcome.err);
   CHECK(outcome.status == 1);
@@ -163,7 +160,7 @@ TEST_CASE("check-plugin names an attempt that does not come back, and gives up")
   CHECK(outcome.err.starts_with(who));
   CHECK(contains(outcome.err, " has not come back for 0.1 s\n" + who));
   CHECK(contains(outcome.err, " has not come back for 0.6 s: given up\n"));
-  const Outcome wrong =
+  const test::Outcome wrong =
       run_program({"check-plugin", plugin_file("hanging"), "--attempt-limit", "nan"});
   CHECK(wrong.status == 2);
   CHECK(contains(wrong.err, "--attempt-limit: 'nan' is not a number of seconds"));
@@ -197,14 +194,14 @@ TEST_CASE("one Ctrl-C ends a run whose attempt does not come back") {
 
 TEST_CASE("check-plugin names the operator that crashes") {
   const NoCore none;
-  const Outcome outcome = run_program({"check-plugin", plugin_file("crashing")});
+  const test::Outcome outcome = run_program({"check-plugin", plugin_file("crashing")});
   CHECK(outcome.status == 128 + SIGSEGV);
   CHECK(contains(outcome.err, "tetmend: crashed in operator 'crashes' of "));
 }
 
 TEST_CASE("improve --check-operators ends at the first breach, and no output is touched") {
   const Ended ended = improve({"sly", "moves_another", {"--check-operators"}});
-  const Outcome& outcome = ended.outcome;
+  const test::Outcome& outcome = ended.outcome;
   const std::string& written = ended.written;
   CAPTURE(outcome.err);
   CHECK(outcome.status == 1);

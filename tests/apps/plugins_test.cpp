@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/apps/program.h"
+#include "tests/support/plugin_file.h"
 #include "tests/support/text.h"
 
 using namespace tetmend;
@@ -26,29 +27,18 @@ class Setting {
   Setting& operator=(const Setting&) = delete;
 };
 
-std::string plugin_file(const std::string& name) {
-  return std::string(TETMEND_TEST_PLUGINS) + "/" + name + ".so";
-}
-
-/// How often `part` is in the text.
-std::size_t count(const std::string& text, std::string_view part) {
-  std::size_t found = 0;
-  for (auto at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++found;
-  return found;
-}
-
 /// One line on stderr, from tetmend.
-void check_complaint(const Outcome& outcome, int status) {
+void check_one_line(const test::Outcome& outcome, int status) {
   CAPTURE(outcome.err);
   CHECK(outcome.status == status);
   CHECK(outcome.err.starts_with("tetmend: "));
-  CHECK(count(outcome.err, "\n") == 1);
+  CHECK(count_of(outcome.err, "\n") == 1);
 }
 
 }  // namespace
 
 TEST_CASE("operators of plugins are listed with their file, as often as --plugin is given") {
-  const Outcome outcome = run_program(
+  const test::Outcome outcome = run_program(
       {"operators", "--plugin", plugin_file("sound"), "--plugin", plugin_file("odt_smoothing")});
   CHECK(outcome.err.empty());
   CHECK(outcome.status == 0);
@@ -56,8 +46,8 @@ TEST_CASE("operators of plugins are listed with their file, as often as --plugin
   CHECK(contains(outcome.out, "  plugin: " + plugin_file("sound")));
   CHECK(contains(outcome.out, "odt_smoothing\n"));
   CHECK(contains(outcome.out, "halvings"));
-  CHECK(count(outcome.out, "  plugin: ") == 2);
-  const Outcome one = run_program({"operators", "--plugin", plugin_file("sound"), "sound"});
+  CHECK(count_of(outcome.out, "  plugin: ") == 2);
+  const test::Outcome one = run_program({"operators", "--plugin", plugin_file("sound"), "sound"});
   CHECK(one.status == 0);
   CHECK(one.out.starts_with("sound\n"));
 }
@@ -69,15 +59,16 @@ TEST_CASE("TETMEND_PLUGIN_PATH names files and folders, and each plugin is loade
   write_text(folder / "readme.txt", "no plugin");
   {
     const Setting setting((folder / "").string() + "::" + (folder / "a.so").string());
-    const Outcome outcome = run_program({"operators", "--plugin", (folder / "b.so").string()});
+    const test::Outcome outcome =
+        run_program({"operators", "--plugin", (folder / "b.so").string()});
     CHECK(outcome.err.empty());
     CHECK(outcome.status == 0);
-    CHECK(count(outcome.out, "  plugin: ") == 2);
+    CHECK(count_of(outcome.out, "  plugin: ") == 2);
     CHECK(outcome.out.find("sound\n") < outcome.out.find("odt_smoothing\n"));
   }
   const Setting setting((folder / "nowhere").string());
-  const Outcome outcome = run_program({"operators"});
-  check_complaint(outcome, 1);
+  const test::Outcome outcome = run_program({"operators"});
+  check_one_line(outcome, 1);
   CHECK(contains(outcome.err, "TETMEND_PLUGIN_PATH"));
   CHECK(contains(outcome.err, (folder / "nowhere").string()));
 }
@@ -90,8 +81,8 @@ TEST_CASE("a plugin that cannot be loaded stops each command before it works") {
         {"schedules", "--plugin", broken},
         {"improve", "missing.mesh", "-o", (folder / "out.mesh").string(), "--plugin", broken},
         {"check-plugin", broken}}) {
-    const Outcome outcome = run_program(arguments);
-    check_complaint(outcome, 1);
+    const test::Outcome outcome = run_program(arguments);
+    check_one_line(outcome, 1);
     CHECK(contains(outcome.err, "plugin ABI"));
     CHECK(outcome.out.empty());
   }
@@ -104,18 +95,18 @@ TEST_CASE("a schedule uses a plugin's operator by its name") {
   const std::string script = (folder / "mine.lua").string();
   const std::string report = (folder / "report.json").string();
   write_text(script, "apply({\"odt_smoothing\", halvings = 4}, {on = {below = 0.6}})\n");
-  const Outcome outcome = run_program({"improve", "--plugin", plugin_file("odt_smoothing"), mesh,
-                                       "-o", (folder / "out.mesh").string(), "--schedule", script,
-                                       "--report", report, "--quiet"});
+  const test::Outcome outcome = run_program({"improve", "--plugin", plugin_file("odt_smoothing"),
+                                             mesh, "-o", (folder / "out.mesh").string(),
+                                             "--schedule", script, "--report", report, "--quiet"});
   CHECK(outcome.err.empty());
   REQUIRE(outcome.status == 0);
   const auto passes = nlohmann::json::parse(read_text(report))["passes"];
   REQUIRE(passes.size() == 1);
   CHECK(passes[0]["accepted"] > 0);
   // Without the plugin there is no such operator.
-  const Outcome without =
+  const test::Outcome without =
       run_program({"improve", mesh, "-o", (folder / "other.mesh").string(), "--schedule", script});
-  check_complaint(without, 1);
+  check_one_line(without, 1);
   CHECK(contains(without.err, "unknown operator 'odt_smoothing'"));
 }
 
@@ -130,9 +121,9 @@ TEST_CASE("an operator that throws ends the program with its name, and no output
       CAPTURE(name);
       write_text(out, "dear to me");
       write_text(script, "local_reconnection{}\napply(\"" + name + "\")\n");
-      const Outcome outcome = run_program({"improve", mesh, "-o", out, "--plugin", plugin,
-                                           "--schedule", script, "--threads", threads});
-      check_complaint(outcome, 1);
+      const test::Outcome outcome = run_program({"improve", mesh, "-o", out, "--plugin", plugin,
+                                                 "--schedule", script, "--threads", threads});
+      check_one_line(outcome, 1);
       CHECK(outcome.out.empty());
       CHECK(contains(outcome.err, "operator '" + name + "' of " + plugin));
       CHECK(read_text(out) == "dear to me");
@@ -143,7 +134,7 @@ TEST_CASE("an operator that throws ends the program with its name, and no output
 
 TEST_CASE("check-plugin has a line for each mesh, also the user's, and status 0 for a sound one") {
   const std::string mesh = std::string(TETMEND_SOURCE_DIR) + "/assets/meshes/two_materials.mesh";
-  const Outcome outcome = run_program({"check-plugin", plugin_file("sound"), "--mesh", mesh});
+  const test::Outcome outcome = run_program({"check-plugin", plugin_file("sound"), "--mesh", mesh});
   CAPTURE(outcome.out);
   CHECK(outcome.err.empty());
   CHECK(outcome.status == 0);
@@ -156,9 +147,9 @@ TEST_CASE("check-plugin has a line for each mesh, also the user's, and status 0 
 }
 
 TEST_CASE("check-plugin says what is wrong with each operator and ends with status 1") {
-  const Outcome outcome = run_program({"check-plugin", plugin_file("lying")});
+  const test::Outcome outcome = run_program({"check-plugin", plugin_file("lying")});
   CAPTURE(outcome.out);
-  check_complaint(outcome, 1);
+  check_one_line(outcome, 1);
   CHECK(contains(outcome.err, "7 of 8 operators break the contract"));
   CHECK(contains(outcome.out, "edits_in_evaluate BREAKS its contract"));
   CHECK(contains(outcome.out, "makes_it_worse keeps its contract"));  // attempt() sees to that
@@ -167,9 +158,9 @@ TEST_CASE("check-plugin says what is wrong with each operator and ends with stat
 }
 
 TEST_CASE("wrong usage of check-plugin is status 2") {
-  check_complaint(run_program({"check-plugin"}), 2);
+  check_one_line(run_program({"check-plugin"}), 2);
   const std::string plugin = plugin_file("sound");
-  check_complaint(run_program({"check-plugin", plugin, "--mesh", plugin}), 2);  // is no mesh
-  check_complaint(run_program({"check-plugin", plugin, "--mesh", "nowhere.stl"}), 1);
-  check_complaint(run_program({"check-plugin", plugin_file("sound"), "more"}), 2);
+  check_one_line(run_program({"check-plugin", plugin, "--mesh", plugin}), 2);  // is no mesh
+  check_one_line(run_program({"check-plugin", plugin, "--mesh", "nowhere.stl"}), 1);
+  check_one_line(run_program({"check-plugin", plugin_file("sound"), "more"}), 2);
 }

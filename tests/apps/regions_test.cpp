@@ -12,6 +12,7 @@
 #include "kernel/integrity.h"
 #include "kernel/surface_fingerprint.h"
 #include "tests/apps/program.h"
+#include "tests/support/assets.h"
 #include "tests/support/layered_mesh.h"
 #include "tests/support/text.h"
 
@@ -19,12 +20,6 @@ using namespace tetmend;
 using namespace tetmend::test;
 
 namespace {
-
-const std::filesystem::path kMeshes = std::filesystem::path(TETMEND_SOURCE_DIR) / "assets/meshes";
-
-std::string asset(const std::string& name) {
-  return (kMeshes / name).string();
-}
 
 /// Label and corners, coordinate by coordinate, the corners in an order of their own.
 struct Tet {

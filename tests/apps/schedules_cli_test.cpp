@@ -10,6 +10,7 @@
 #include "schedule/lua_state.h"
 #include "schedule/schedule.h"
 #include "tests/apps/program.h"
+#include "tests/support/assets.h"
 #include "tests/support/text.h"
 
 using namespace tetmend;
@@ -17,20 +18,18 @@ using namespace tetmend::test;
 
 namespace {
 
-const std::string kSheet = std::string(TETMEND_SOURCE_DIR) + "/assets/meshes/sheet.mesh";
-
 /// One line on stderr, as every error has it.
 bool is_complaint(const Outcome& outcome) {
   return outcome.err.starts_with("tetmend: ") && outcome.err.back() == '\n' &&
          outcome.err.find('\n') == outcome.err.size() - 1;
 }
 
-struct Bench {
+struct ScheduleBench {
   TempFolder folder;
   std::string script = (folder / "my.lua").string();
   std::string out = (folder / "out.mesh").string();
 
-  std::string in = kSheet;
+  std::string in = asset("sheet.mesh");
 
   Outcome improve(const std::string& text, std::vector<std::string> more = {}) {
     write_text(script, text);
@@ -58,8 +57,8 @@ TEST_CASE("scripts with mistakes end with status 1, name line and word, and touc
       {"require 'os'", "my.lua:1: unknown name 'require'"},
       {"\x1bLua", "my.lua: attempt to load a binary chunk"},
   };
-  Bench bench;
-  const std::string input = read_text(kSheet);
+  ScheduleBench bench;
+  const std::string input = read_text(asset("sheet.mesh"));
   write_text(bench.out, "earlier output\n");
   for (const auto& entry : scripts) {
     const auto& script = entry.first;
@@ -72,11 +71,11 @@ TEST_CASE("scripts with mistakes end with status 1, name line and word, and touc
     CHECK(read_text(bench.out) == "earlier output\n");
     CHECK(bench.folder.entries() == 2);
   }
-  CHECK(read_text(kSheet) == input);
+  CHECK(read_text(asset("sheet.mesh")) == input);
 }
 
 TEST_CASE("wrong settings and limits are wrong usage, before any work") {
-  Bench bench;
+  ScheduleBench bench;
   const std::string script = "local n = parameter{'n', default = 3, low = 1, high = 9} smooth{}";
   const std::vector<std::pair<std::vector<std::string>, std::string>> wrong = {
       {{"--set", "m=1"}, "has no parameter 'm'; valid: n"},
@@ -96,14 +95,14 @@ TEST_CASE("wrong settings and limits are wrong usage, before any work") {
     CHECK(contains(outcome.err, message));
   }
   CHECK(bench.folder.entries() == 1);
-  const Outcome missing =
-      run_program({"improve", kSheet, "-o", bench.out, "--schedule", "/nowhere/my.lua"});
+  const Outcome missing = run_program(
+      {"improve", asset("sheet.mesh"), "-o", bench.out, "--schedule", "/nowhere/my.lua"});
   CHECK(missing.status == 1);
   CHECK(contains(missing.err, "/nowhere/my.lua: cannot read it"));
 }
 
 TEST_CASE("a script runs with its settings, and report and notes tell it") {
-  Bench bench;
+  ScheduleBench bench;
   const std::string report = (bench.folder / "r.json").string();
   const Outcome outcome = bench.improve(
       "local n = parameter{'n', default = 1, low = 1, high = 9}\n"
@@ -121,7 +120,7 @@ TEST_CASE("a script runs with its settings, and report and notes tell it") {
 }
 
 TEST_CASE("a time limit ends an endless script with status 0 and a written mesh") {
-  Bench bench;
+  ScheduleBench bench;
   const std::string report = (bench.folder / "r.json").string();
   const Outcome outcome =
       bench.improve("smooth{} while true do end", {"--time-limit", "0.2", "--report", report});
@@ -132,11 +131,12 @@ TEST_CASE("a time limit ends an endless script with status 0 and a written mesh"
 }
 
 TEST_CASE("Ctrl-C ends an endless script with status 1 and a written mesh") {
-  Bench bench;
+  ScheduleBench bench;
   write_text(bench.script, "log 'looping' while true do end");
   Terminal user;
-  const Program program({"improve", kSheet, "-o", bench.out, "--schedule", bench.script},
-                        bench.folder / "stdout", user.slave());
+  const Program program(
+      {"improve", asset("sheet.mesh"), "-o", bench.out, "--schedule", bench.script},
+      bench.folder / "stdout", user.slave());
   user.wait_for("looping");
   program.send(SIGINT);
   CHECK(program.wait() == 4);
@@ -144,9 +144,9 @@ TEST_CASE("Ctrl-C ends an endless script with status 1 and a written mesh") {
 }
 
 TEST_CASE("the default schedule is shell.lua, by name and by file") {
-  Bench bench;
+  ScheduleBench bench;
   const auto result = [&](const std::vector<std::string>& more) {
-    std::vector<std::string> arguments = {"improve", kSheet, "-o", bench.out};
+    std::vector<std::string> arguments = {"improve", asset("sheet.mesh"), "-o", bench.out};
     arguments.insert(arguments.end(), more.begin(), more.end());
     CHECK(run_program(arguments).status == 0);
     return read_text(bench.out);
@@ -202,7 +202,7 @@ TEST_CASE("the examples of docs/schedules.md run") {
     examples.push_back(page.substr(at, page.find("```", at) - at));
   }
   REQUIRE(examples.size() == 4);
-  Bench bench;
+  ScheduleBench bench;
   const Outcome rounds = bench.improve(examples[0]);
   CHECK(rounds.status == 0);
   CHECK(contains(rounds.out, "bad tets, smallest angle"));

@@ -13,19 +13,12 @@
 #include "kernel/formats/mesh_io.h"
 #include "kernel/quality.h"
 #include "tests/apps/program.h"
+#include "tests/support/assets.h"
 #include "tests/support/second_order.h"
 #include "tests/support/text.h"
 
 using namespace tetmend;
 using namespace tetmend::test;
-
-namespace {
-
-std::string asset(const std::string& name) {
-  return std::string(TETMEND_SOURCE_DIR) + "/assets/meshes/" + name;
-}
-
-}  // namespace
 
 TEST_CASE("a mesh goes from standard input to standard output") {
   const TempFolder folder;

@@ -13,18 +13,11 @@
 #include "kernel/statistics.h"
 #include "kernel/surface_fingerprint.h"
 #include "tests/apps/program.h"
+#include "tests/support/assets.h"
 #include "tests/support/text.h"
 
 using namespace tetmend;
 using namespace tetmend::test;
-
-namespace {
-
-std::string asset(const std::string& name) {
-  return (std::filesystem::path(TETMEND_SOURCE_DIR) / "assets/meshes" / name).string();
-}
-
-}  // namespace
 
 TEST_CASE("--surface moves the surface and reports by how much, for any number of threads") {
   for (const std::string surface : {"flat", "3%"}) {

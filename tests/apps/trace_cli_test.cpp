@@ -11,6 +11,7 @@
 
 #include "kernel/formats/mesh_io.h"
 #include "tests/apps/program.h"
+#include "tests/support/assets.h"
 #include "tests/support/text.h"
 #include "trace/call_tree.h"
 #include "trace/lesson.h"
@@ -21,15 +22,13 @@ using namespace tetmend::test;
 
 namespace {
 
-const std::string kSheet = std::string(TETMEND_SOURCE_DIR) + "/assets/meshes/sheet.mesh";
-
-struct Bench {
+struct TraceBench {
   TempFolder folder;
   std::string out = (folder / "out.mesh").string();
   std::string trace = (folder / "run.trace").string();
 
   Outcome improve(std::vector<std::string> more = {}) {
-    std::vector<std::string> arguments = {"improve", kSheet, "-o", out, "-q"};
+    std::vector<std::string> arguments = {"improve", asset("sheet.mesh"), "-o", out, "-q"};
     arguments.insert(arguments.end(), more.begin(), more.end());
     return run_program(arguments);
   }
@@ -46,7 +45,7 @@ struct Bench {
 }  // namespace
 
 TEST_CASE("a run that is recorded writes the same mesh, and its trace has a summary") {
-  Bench bench;
+  TraceBench bench;
   REQUIRE(bench.improve().status == 0);
   const std::string plain = read_text(bench.out);
   REQUIRE(bench.record({"--threads", "2"}).status == 0);
@@ -62,7 +61,7 @@ TEST_CASE("a run that is recorded writes the same mesh, and its trace has a summ
 }
 
 TEST_CASE("filters make the trace smaller and leave the mesh as it was") {
-  Bench bench;
+  TraceBench bench;
   REQUIRE(bench.record().status == 0);
   const std::string mesh = read_text(bench.out);
   const std::size_t calls = TraceFile(bench.trace).calls().size();
@@ -81,7 +80,7 @@ TEST_CASE("filters make the trace smaller and leave the mesh as it was") {
 }
 
 TEST_CASE("mistakes in the options of a trace are wrong usage, before any work") {
-  Bench bench;
+  TraceBench bench;
   const std::vector<std::pair<std::vector<std::string>, std::string>> wrong = {
       {{"--trace-around", "x"}, "--trace-around: 'x' is not a number"},
       {{"--trace-around", "1,2,3"}, "'1,2,3' is not of the form TET, TET,RADIUS or X,Y,Z,RADIUS"},
@@ -103,7 +102,7 @@ TEST_CASE("mistakes in the options of a trace are wrong usage, before any work")
 }
 
 TEST_CASE("a call is shown as a tree, as a graph and as slices") {
-  Bench bench;
+  TraceBench bench;
   REQUIRE(bench.record().status == 0);
   const TraceFile file(bench.trace);
   const auto calls_below = [&](std::uint32_t i) { return file.calls()[i].subtree_end - i; };
@@ -126,7 +125,7 @@ TEST_CASE("a call is shown as a tree, as a graph and as slices") {
 }
 
 TEST_CASE("a ledger counts each call once, as text and as JSON") {
-  Bench bench;
+  TraceBench bench;
   REQUIRE(bench.record().status == 0);
   const TraceFile file(bench.trace);
   const Outcome text = bench.look({"--ledger"});
@@ -149,7 +148,7 @@ TEST_CASE("a ledger counts each call once, as text and as JSON") {
 }
 
 TEST_CASE("two traces are set side by side, and neither is written over") {
-  Bench bench;
+  TraceBench bench;
   REQUIRE(bench.record().status == 0);
   const std::string other = (bench.folder / "other.trace").string();
   REQUIRE(bench.improve({"--trace", other, "--schedule", "conservative"}).status == 0);
@@ -165,7 +164,7 @@ TEST_CASE("two traces are set side by side, and neither is written over") {
 }
 
 TEST_CASE("a page without a call is of the whole trace, and one of call 0 is not") {
-  Bench bench;
+  TraceBench bench;
   bench.trace = std::string(TETMEND_SOURCE_DIR) + "/assets/lessons/2-two-shells.trace";
   const TraceFile file(bench.trace);
   const std::string page = (bench.folder / "page.html").string();
@@ -191,7 +190,7 @@ TEST_CASE("a page without a call is of the whole trace, and one of call 0 is not
 
 TEST_CASE(
     "a lesson is made of a call of a run, told, and becomes a page that answers its questions") {
-  Bench bench;
+  TraceBench bench;
   REQUIRE(bench.record().status == 0);
   const std::string json = (bench.folder / "run.json").string();
   const std::vector<std::string> make = {"lesson", "--make", bench.trace, "--call", "3"};
@@ -230,7 +229,7 @@ TEST_CASE(
 }
 
 TEST_CASE("the history of a tet is told by its number in the file that the run wrote") {
-  Bench bench;
+  TraceBench bench;
   REQUIRE(bench.record().status == 0);
   const Outcome told = bench.look({"--history", "tet:1@" + bench.out});
   REQUIRE(told.status == 0);
@@ -255,12 +254,12 @@ TEST_CASE("the history of a tet is told by its number in the file that the run w
 }
 
 TEST_CASE("the mesh at an event is written, with the cavity as a field of a VTK file") {
-  Bench bench;
+  TraceBench bench;
   REQUIRE(bench.record().status == 0);
   const TraceFile file(bench.trace);
   const std::string first = (bench.folder / "first.mesh").string();
   REQUIRE(bench.look({"--at", "0", "-o", first}).status == 0);
-  CHECK(read_mesh(first).tets.size() == read_mesh(kSheet).tets.size());
+  CHECK(read_mesh(first).tets.size() == read_mesh(asset("sheet.mesh")).tets.size());
   const std::string last = (bench.folder / "last.mesh").string();
   REQUIRE(bench.look({"--at", std::to_string(file.event_count()), "-o", last}).status == 0);
   CHECK(read_mesh(last).tets.size() == read_mesh(bench.out).tets.size());
@@ -284,7 +283,7 @@ TEST_CASE("the mesh at an event is written, with the cavity as a field of a VTK 
 }
 
 TEST_CASE("a call that was extracted goes the same way when it is repeated") {
-  Bench bench;
+  TraceBench bench;
   // A polish judges by the mean of the whole mesh, which the part does not have.
   // Nor has it the step of the whole mesh.
   std::vector<std::string> options = {"--set",         "polish_first=0", "--set",
@@ -349,7 +348,7 @@ TEST_CASE("a call that was extracted goes the same way when it is repeated") {
 }
 
 TEST_CASE("a trace that is cut off is summarised with a warning; what is none is refused") {
-  Bench bench;
+  TraceBench bench;
   REQUIRE(bench.record().status == 0);
   const std::string whole = read_text(bench.trace);
   write_text(bench.trace, whole.substr(0, whole.size() - 100));

@@ -9,6 +9,7 @@
 #include "contract/zoo.h"
 #include "ops/plugin.h"
 #include "schedule/passes.h"
+#include "tests/support/plugin_file.h"
 #include "tests/support/text.h"
 #include "tests/support/threads.h"
 
@@ -19,10 +20,6 @@ using tetmend::contract::Inspector;
 using tetmend::contract::kuhn_cube;
 
 namespace {
-
-std::string plugin_file(const std::string& name) {
-  return std::string(TETMEND_TEST_PLUGINS) + "/" + name + ".so";
-}
 
 Registry registry_with(const std::string& plugin) {
   Registry registry = Registry::builtin();

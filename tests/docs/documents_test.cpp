@@ -14,13 +14,12 @@
 #include "kernel/tet_mesh.h"
 #include "ops/registry.h"
 #include "tests/apps/program.h"
+#include "tests/support/assets.h"
 
 using namespace tetmend;
 using namespace tetmend::test;
 
 namespace {
-
-const std::filesystem::path kSource = TETMEND_SOURCE_DIR;
 
 std::vector<std::string> lines_of(const std::string& text) {
   std::vector<std::string> lines;

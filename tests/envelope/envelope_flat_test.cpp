@@ -17,21 +17,15 @@ using namespace tetmend::test;
 
 namespace {
 
-VertexHandle vertex_at(const SurfaceModel& model, const Point& p) {
-  const auto& points = model.points();
-  return VertexHandle(
-      static_cast<std::uint32_t>(std::find(points.begin(), points.end(), p) - points.begin()));
-}
-
 /// The unit cube of 4 cells each way; points are quarters.
-SurfaceModel cube() {
+SurfaceModel flat_cube() {
   return {TetMesh(kuhn_cube(4, 0, 1)), {}};
 }
 
 }  // namespace
 
 TEST_CASE("a vertex moves in its plane, not out of it and not over its neighbours") {
-  SurfaceModel model = cube();
+  SurfaceModel model = flat_cube();
   const VertexHandle v = vertex_at(model, {0.5, 0.5, 1});
   REQUIRE(model.guard().place(v) == SurfacePlace::smooth);
   CHECK(model.guard().direction(v, model.at(v)) == Point(0, 0, 1));
@@ -43,7 +37,7 @@ TEST_CASE("a vertex moves in its plane, not out of it and not over its neighbour
 }
 
 TEST_CASE("a ridge vertex moves along its line up to its neighbour, a corner never") {
-  SurfaceModel model = cube();
+  SurfaceModel model = flat_cube();
   const VertexHandle v = vertex_at(model, {0.5, 0, 1});
   REQUIRE(model.guard().place(v) == SurfacePlace::ridge);
   CHECK(model.guard().nearest(v, {0.6, 0.3, 1.2}) == Point(0.6, 0, 1));
@@ -56,7 +50,7 @@ TEST_CASE("a ridge vertex moves along its line up to its neighbour, a corner nev
 }
 
 TEST_CASE("edges are contracted inside a patch and along a line, not across it") {
-  SurfaceModel model = cube();
+  SurfaceModel model = flat_cube();
   const VertexHandle corner = vertex_at(model, {0, 0, 1});
   const VertexHandle ridge = vertex_at(model, {0.25, 0, 1});
   const VertexHandle next = vertex_at(model, {0.5, 0, 1});
@@ -74,7 +68,7 @@ TEST_CASE("edges are contracted inside a patch and along a line, not across it")
 }
 
 TEST_CASE("a split of a feature edge makes a ridge vertex, one inside a patch a smooth one") {
-  SurfaceModel model = cube();
+  SurfaceModel model = flat_cube();
   const VertexHandle a = vertex_at(model, {0.25, 0, 1});
   const VertexHandle b = vertex_at(model, {0.5, 0, 1});
   const VertexHandle c = vertex_at(model, {0.25, 0.25, 1});
@@ -91,7 +85,7 @@ TEST_CASE("a split of a feature edge makes a ridge vertex, one inside a patch a 
 }
 
 TEST_CASE("a feature edge is not flipped, and no edge into the outside of its quadrilateral") {
-  SurfaceModel model = cube();
+  SurfaceModel model = flat_cube();
   CHECK_FALSE(model.flip(vertex_at(model, {0.25, 0, 1}), vertex_at(model, {0.5, 0, 1})));
   const VertexHandle a = vertex_at(model, {0.25, 0.25, 1});
   const VertexHandle b = vertex_at(model, {0.5, 0.5, 1});
@@ -117,7 +111,7 @@ TEST_CASE("a line inside a plane stays where it is") {
 }
 
 TEST_CASE("a vertex moves with all of its faces or not at all") {
-  SurfaceModel model = cube();
+  SurfaceModel model = flat_cube();
   const VertexHandle v = vertex_at(model, {0.5, 0.5, 1});
   std::vector<SurfaceFace> before;
   std::vector<SurfaceFace> after;
@@ -136,7 +130,7 @@ TEST_CASE("a vertex moves with all of its faces or not at all") {
 }
 
 TEST_CASE("what is no edit of the present surface is refused") {
-  SurfaceModel model = cube();
+  SurfaceModel model = flat_cube();
   const VertexHandle v = vertex_at(model, {0.5, 0.5, 1});
   const auto star = model.star(v);
   std::vector<SurfaceModel::Face> others(model.faces().begin(), model.faces().end());
@@ -147,7 +141,7 @@ TEST_CASE("what is no edit of the present surface is refused") {
 }
 
 TEST_CASE("undo brings back the present surface bit for bit, in any order of kinds") {
-  SurfaceModel model = cube();
+  SurfaceModel model = flat_cube();
   contract::Random random(5);
   for (int i = 0; i < 500; ++i) {
     const std::unique_ptr<SurfaceGuard> copy = model.guard().clone();
@@ -201,7 +195,7 @@ TEST_CASE("the interface of two regions is kept like the outside, with its line 
 }
 
 TEST_CASE("a guard follows new numbers of its vertices") {
-  SurfaceModel model = cube();
+  SurfaceModel model = flat_cube();
   contract::Random random(5);
   for (int i = 0; i < 200; ++i) model.random_edit(random, 0.4);
   model.journal().clear();

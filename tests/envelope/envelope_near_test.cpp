@@ -18,13 +18,7 @@ using namespace tetmend::test;
 
 namespace {
 
-VertexHandle vertex_at(const SurfaceModel& model, const Point& p) {
-  const auto& points = model.points();
-  return VertexHandle(
-      static_cast<std::uint32_t>(std::find(points.begin(), points.end(), p) - points.begin()));
-}
-
-SurfaceModel cube(double length) {
+SurfaceModel near_cube(double length) {
   return {TetMesh(kuhn_cube(4, 0, 1)), {.length = length, .kept = {}}};
 }
 
@@ -48,7 +42,7 @@ void check_near(const SurfaceModel& model, double length) {
 }  // namespace
 
 TEST_CASE("a vertex leaves its plane by less than the tolerance, not by more") {
-  SurfaceModel model = cube(0.02);
+  SurfaceModel model = near_cube(0.02);
   const VertexHandle v = vertex_at(model, {0.5, 0.5, 1});
   CHECK_FALSE(model.move(v, {0.8, 0.5, 1}));  // folds over
   for (int step = 1; step <= 8; ++step) {
@@ -62,14 +56,14 @@ TEST_CASE("a vertex leaves its plane by less than the tolerance, not by more") {
 }
 
 TEST_CASE("an edit that makes many more bends than it found is refused") {
-  SurfaceModel model = cube(0.02);
+  SurfaceModel model = near_cube(0.02);
   const VertexHandle v = vertex_at(model, {0.5, 0.5, 1});
   CHECK(model.move(v, {0.5, 0.5, 1.004}, false));
   CHECK_FALSE(model.move(v, {0.5, 0.5, 1.019}));
 }
 
 TEST_CASE("a ridge vertex keeps near its line, a corner where it is") {
-  SurfaceModel model = cube(0.02);
+  SurfaceModel model = near_cube(0.02);
   const VertexHandle v = vertex_at(model, {0.5, 0, 1});
   CHECK(model.move(v, {0.55, 0.004, 1.004}, false));
   CHECK_FALSE(model.move(v, {0.55, 0.03, 1}));
@@ -139,7 +133,7 @@ TEST_CASE("a line inside a plane keeps near itself, though its faces could not s
 }
 
 TEST_CASE("nothing folds over, however large the tolerance") {
-  SurfaceModel model = cube(5);  // more than all bends that a fold can make
+  SurfaceModel model = near_cube(5);  // more than all bends that a fold can make
   const VertexHandle v = vertex_at(model, {0.5, 0.5, 1});
   CHECK(model.move(v, {0.6, 0.5, 1}, false));
   CHECK_FALSE(model.move(v, {0.8, 0.5, 1}));

@@ -85,8 +85,8 @@ std::size_t open_sides(const SurfaceModel& model) {
 }
 
 /// What is wrong; empty if nothing.
-std::string complaint(const SurfaceModel& model, const Before& before,
-                      const EnvelopeOptions& options) {
+std::string sample_complaint(const SurfaceModel& model, const Before& before,
+                             const EnvelopeOptions& options) {
   const std::vector<Triangle> now = model.triangles();
   const double most = *std::max_element(before.tolerance.begin(), before.tolerance.end());
   if (sampled_distance(now, before.triangles) > most) return "too far from the reference";
@@ -146,7 +146,7 @@ TEST_CASE("random solids: samples find no violation of what the guard promises")
     CAPTURE(solid.name);
     CAPTURE(options.share);
     CAPTURE(options.length);
-    CHECK(complaint(model, before, options) == "");
+    CHECK(sample_complaint(model, before, options) == "");
     CHECK((open_sides(model) > 0) == (open > 0));  // around an interface their number may change
     const SurfaceBound bound = model.guard().proven_bound();
     CHECK(bound.share <= 1);

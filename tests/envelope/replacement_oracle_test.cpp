@@ -22,10 +22,10 @@ using namespace tetmend::test;
 
 namespace {
 
-using Face = std::array<VertexHandle, 3>;
+using FaceTriple = std::array<VertexHandle, 3>;
 using Edge = std::pair<VertexHandle, VertexHandle>;
 
-Face rotated(Face f) {
+FaceTriple rotated(FaceTriple f) {
   std::rotate(f.begin(), std::min_element(f.begin(), f.end()), f.end());
   return f;
 }
@@ -35,9 +35,9 @@ Edge in_order(VertexHandle a, VertexHandle b) {
 }
 
 /// Directed sides, less their opposites.
-std::map<Edge, int> border(const std::vector<Face>& faces) {
+std::map<Edge, int> border(const std::vector<FaceTriple>& faces) {
   std::map<Edge, int> sides;
-  for (const Face& f : faces) {
+  for (const FaceTriple& f : faces) {
     for (unsigned k = 0; k < 3; ++k) {
       const VertexHandle a = f[k];
       const VertexHandle b = f[(k + 1) % 3];
@@ -50,7 +50,7 @@ std::map<Edge, int> border(const std::vector<Face>& faces) {
 
 /// A closed surface with patches and lines.
 struct Whole {
-  std::map<Face, std::uint32_t> faces;  // with patch
+  std::map<FaceTriple, std::uint32_t> faces;  // with patch
   std::map<Edge, std::uint32_t> lines;
   std::set<VertexHandle> corners;
 
@@ -122,21 +122,22 @@ bool has_one_fan_each(const Whole& whole) {
 }
 
 /// Whether a triangle is there from both sides: no surface of tets has that.
-bool has_twins(Whole whole, const std::vector<Face>& before, const std::vector<Face>& after) {
-  for (const Face& f : before) whole.faces.erase(rotated(f));
-  for (const Face& f : after) whole.faces[rotated(f)] = 0;
+bool has_twins(Whole whole, const std::vector<FaceTriple>& before,
+               const std::vector<FaceTriple>& after) {
+  for (const FaceTriple& f : before) whole.faces.erase(rotated(f));
+  for (const FaceTriple& f : after) whole.faces[rotated(f)] = 0;
   return std::any_of(whole.faces.begin(), whole.faces.end(), [&](const auto& face) {
-    const Face& f = face.first;
+    const FaceTriple& f = face.first;
     return whole.faces.contains({f[0], f[2], f[1]});
   });
 }
 
 /// What is wrong; empty if nothing.
-std::string complaint(const Whole& before, const Whole& now) {
-  std::set<Face> triples;
+std::string patch_complaint(const Whole& before, const Whole& now) {
+  std::set<FaceTriple> triples;
   for (const auto& [f, patch] : now.faces) {
     if (f[0] == f[1] || f[1] == f[2] || f[2] == f[0]) return "a face with a vertex twice";
-    Face sorted = f;
+    FaceTriple sorted = f;
     std::sort(sorted.begin(), sorted.end());
     if (!triples.insert(sorted).second) return "two faces with the same vertices";
   }
@@ -169,12 +170,12 @@ class Proposals {
   }
 
   /// Some faces that hang together, and what may have the same border.
-  std::pair<std::vector<Face>, std::vector<Face>> next() {
-    std::vector<Face> before = {pick(faces_)};
+  std::pair<std::vector<FaceTriple>, std::vector<FaceTriple>> next() {
+    std::vector<FaceTriple> before = {pick(faces_)};
     const std::size_t count = 1 + random_.index(7);
     for (int tries = 0; before.size() < count && tries < 200; ++tries) {
-      const Face f = pick(faces_);
-      const Face g = pick(before);
+      const FaceTriple f = pick(faces_);
+      const FaceTriple g = pick(before);
       const auto shared = std::count_if(f.begin(), f.end(), [&](VertexHandle v) {
         return std::find(g.begin(), g.end(), v) != g.end();
       });
@@ -182,7 +183,7 @@ class Proposals {
         before.push_back(f);
       }
     }
-    std::vector<Face> after = before;
+    std::vector<FaceTriple> after = before;
     fresh_ = slots_;
     const std::size_t steps = 1 + random_.index(3);
     for (std::size_t i = 0; i < steps && !after.empty(); ++i) change(after);
@@ -190,10 +191,14 @@ class Proposals {
   }
 
  private:
-  const Face& pick(const std::vector<Face>& faces) { return faces[random_.index(faces.size())]; }
-  VertexHandle pick_vertex(const std::vector<Face>& faces) { return pick(faces)[random_.index(3)]; }
+  const FaceTriple& pick(const std::vector<FaceTriple>& faces) {
+    return faces[random_.index(faces.size())];
+  }
+  VertexHandle pick_vertex(const std::vector<FaceTriple>& faces) {
+    return pick(faces)[random_.index(3)];
+  }
 
-  void change(std::vector<Face>& faces) {
+  void change(std::vector<FaceTriple>& faces) {
     switch (random_.index(6)) {
       case 0:
       case 1:
@@ -201,15 +206,16 @@ class Proposals {
       case 2: {  // one vertex for another
         const VertexHandle from = pick_vertex(faces);
         const VertexHandle to = random_.index(8) == 0 ? pick_vertex(faces_) : pick_vertex(faces);
-        for (Face& f : faces) std::replace(f.begin(), f.end(), from, to);
-        std::erase_if(faces,
-                      [](const Face& f) { return f[0] == f[1] || f[1] == f[2] || f[2] == f[0]; });
+        for (FaceTriple& f : faces) std::replace(f.begin(), f.end(), from, to);
+        std::erase_if(faces, [](const FaceTriple& f) {
+          return f[0] == f[1] || f[1] == f[2] || f[2] == f[0];
+        });
         return;
       }
       case 3:
         return split(faces);
       case 4: {  // a face and its back
-        const Face f = {pick_vertex(faces), pick_vertex(faces), pick_vertex(faces_)};
+        const FaceTriple f = {pick_vertex(faces), pick_vertex(faces), pick_vertex(faces_)};
         if (f[0] == f[1] || f[1] == f[2] || f[2] == f[0]) return;
         faces.push_back(f);
         faces.push_back({f[0], f[2], f[1]});
@@ -225,17 +231,17 @@ class Proposals {
       }
     }
   }
-  void flip(std::vector<Face>& faces) {
-    const Face f = pick(faces);
+  void flip(std::vector<FaceTriple>& faces) {
+    const FaceTriple f = pick(faces);
     const std::size_t k = random_.index(3);
     const VertexHandle a = f[k];
     const VertexHandle b = f[(k + 1) % 3];
-    for (const Face& g : faces) {
+    for (const FaceTriple& g : faces) {
       for (std::size_t i = 0; i < 3; ++i) {
         if (g[i] != b || g[(i + 1) % 3] != a) continue;
         const VertexHandle c = f[(k + 2) % 3];
         const VertexHandle d = g[(i + 2) % 3];
-        const Face second = g;
+        const FaceTriple second = g;
         std::erase(faces, f);
         std::erase(faces, second);
         faces.push_back({c, a, d});
@@ -244,8 +250,8 @@ class Proposals {
       }
     }
   }
-  void split(std::vector<Face>& faces) {
-    const Face f = pick(faces);
+  void split(std::vector<FaceTriple>& faces) {
+    const FaceTriple f = pick(faces);
     const std::size_t k = random_.index(3);
     const VertexHandle a = f[k];
     const VertexHandle b = f[(k + 1) % 3];
@@ -264,17 +270,17 @@ class Proposals {
   }
 
   contract::Random random_;
-  std::vector<Face> faces_;
+  std::vector<FaceTriple> faces_;
   std::uint32_t slots_;
   std::uint32_t fresh_ = 0;
 };
 
-std::vector<SurfaceFace> with_points(const std::vector<Face>& faces, const TetMesh& mesh) {
+std::vector<SurfaceFace> with_points(const std::vector<FaceTriple>& faces, const TetMesh& mesh) {
   const auto at = [&](VertexHandle v) -> Point {
     return v.index() < mesh.vertex_slots() ? mesh.point(v) : Point(v.index(), 0, 0);
   };
   std::vector<SurfaceFace> result;
-  for (const Face& f : faces) result.push_back({f, {at(f[0]), at(f[1]), at(f[2])}});
+  for (const FaceTriple& f : faces) result.push_back({f, {at(f[0]), at(f[1]), at(f[2])}});
   return result;
 }
 
@@ -312,7 +318,7 @@ TEST_CASE("random edits: what is taken leaves patches, lines, corners and topolo
         if (present.place(v) == SurfacePlace::corner) whole.corners.insert(v);
       }
     }
-    REQUIRE(complaint(whole, whole) == "");
+    REQUIRE(patch_complaint(whole, whole) == "");
     Proposals proposals(whole, static_cast<std::uint32_t>(mesh.vertex_slots()), 5);
     SurfaceExchange edit;
     std::size_t taken = 0;
@@ -322,7 +328,7 @@ TEST_CASE("random edits: what is taken leaves patches, lines, corners and topolo
       if (has_twins(whole, before, after)) continue;
       if (!edit.read(present, with_points(before, mesh), with_points(after, mesh))) continue;
       ++taken;
-      const std::string about = complaint(whole, after_edit(whole, edit));
+      const std::string about = patch_complaint(whole, after_edit(whole, edit));
       REQUIRE_MESSAGE(about.empty(), about, " after proposal ", i, " of ", degrees, " degrees, ",
                       whole.faces.size(), " faces");
     }

@@ -181,4 +181,11 @@ class SurfaceModel {
   std::vector<Triangle> reference_;
 };
 
+/// The vertex that is exactly at a place; one past the last if none is.
+inline VertexHandle vertex_at(const SurfaceModel& model, const Point& p) {
+  const auto& points = model.points();
+  return VertexHandle(
+      static_cast<std::uint32_t>(std::find(points.begin(), points.end(), p) - points.begin()));
+}
+
 }  // namespace tetmend::test

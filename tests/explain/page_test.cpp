@@ -12,9 +12,11 @@
 #include "explain/stepper.h"
 #include "kernel/error.h"
 #include "tests/support/example_traces.h"
+#include "tests/support/text.h"
 
 using namespace tetmend;
 using namespace tetmend::explain;
+using namespace tetmend::test;
 using nlohmann::json;
 
 namespace {
@@ -46,14 +48,6 @@ struct LargestCall {
   Replay replay{file};
   std::uint32_t call = 0;
 };
-
-std::size_t count(const std::string& text, const std::string& part) {
-  std::size_t found = 0;
-  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) {
-    ++found;
-  }
-  return found;
-}
 
 }  // namespace
 
@@ -177,16 +171,16 @@ TEST_CASE("names of a trace are texts on its page, whatever they say") {
   const Page page = write_page(
       file, replay,
       {.title = bad, .range = {0, file.event_count()}, .lesson = &lesson, .program = bad});
-  CHECK(count(page.html, "<script") == 2);  // the recording and the script
-  CHECK(count(page.html, "</script>") == 2);
-  CHECK(count(page.html, "<img") == 0);
-  CHECK(count(page.html, "\xff") == 0);
+  CHECK(count_of(page.html, "<script") == 2);  // the recording and the script
+  CHECK(count_of(page.html, "</script>") == 2);
+  CHECK(count_of(page.html, "<img") == 0);
+  CHECK(count_of(page.html, "\xff") == 0);
   const json recording = recording_of(page.html);
   CHECK(recording["lesson"]["steps"][0]["text"].get<std::string>().starts_with("</script>"));
   CHECK(recording["origin"]["mesh"].get<std::string>().starts_with("</script>"));
   const std::string index = write_index(bad, bad, {{bad, bad, bad}}, bad);
-  CHECK(count(index, "<script") == 1);  // light and dark
-  CHECK(count(index, "<img") == 0);
+  CHECK(count_of(index, "<script") == 1);  // light and dark
+  CHECK(count_of(index, "<img") == 0);
 }
 
 TEST_CASE("a page asks nobody for anything") {

@@ -20,15 +20,13 @@
 #include "kernel/formats/cell_arrays.h"
 #include "kernel/formats/mesh_io.h"
 #include "tests/kernel/formats/fixtures.h"
+#include "tests/support/assets.h"
 #include "tests/support/overlapping_mesh.h"
 
 using namespace tetmend;
+using namespace tetmend::test;
 
 namespace {
-
-MeshData asset(const std::string& file) {
-  return read_mesh(std::filesystem::path(TETMEND_SOURCE_DIR) / "assets/meshes" / file);
-}
 
 double linear(const Point& p) {
   return 3 + 2 * p.x() - 5 * p.y() + 0.25 * p.z();
@@ -48,7 +46,7 @@ std::vector<Label> halves(const MeshData& data, double& middle) {
   return parts;
 }
 
-double volume(const MeshData& data, const MeshData::Tet& tet) {
+double volume_of(const MeshData& data, const MeshData::Tet& tet) {
   const Point& a = data.points[tet.vertices[0]];
   const Point b = data.points[tet.vertices[1]] - a;
   const Point c = data.points[tet.vertices[2]] - a;
@@ -58,7 +56,7 @@ double volume(const MeshData& data, const MeshData::Tet& tet) {
 std::map<Label, double> volume_of_parts(const MeshData& data) {
   std::map<Label, double> sums;
   for (std::size_t t = 0; t < data.tets.size(); ++t) {
-    sums[data.tet_parts[t]] += volume(data, data.tets[t]);
+    sums[data.tet_parts[t]] += volume_of(data, data.tets[t]);
   }
   return sums;
 }
@@ -66,7 +64,7 @@ std::map<Label, double> volume_of_parts(const MeshData& data) {
 }  // namespace
 
 TEST_CASE("a linear field is exact on the improved mesh, other data come from their old place") {
-  MeshData before = asset("bracket.meshb");
+  MeshData before = read_mesh(asset("bracket.meshb"));
   std::vector<double> field;
   std::vector<std::int32_t> numbers;
   for (const Point& p : before.points) {
@@ -118,7 +116,7 @@ TEST_CASE("a linear field is exact on the improved mesh, other data come from th
 }
 
 TEST_CASE("parts that labels do not tell apart keep their volumes, groups their members") {
-  MeshData before = asset("bracket.meshb");
+  MeshData before = read_mesh(asset("bracket.meshb"));
   double middle = 0;
   before.tet_parts = halves(before, middle);
   before.groups = {
@@ -196,7 +194,7 @@ TEST_CASE("data and groups of a mesh of arrays come over, are saved, and come ba
 }
 
 TEST_CASE("data belong to the mesh that a run leaves which failed half-way") {
-  MeshData before = asset("bracket.meshb");
+  MeshData before = read_mesh(asset("bracket.meshb"));
   std::vector<double> field;
   for (const Point& p : before.points) field.push_back(linear(p));
   before.point_data = {{"field", 1, field}};
@@ -229,7 +227,7 @@ TEST_CASE("a flat tet gives a linear field to the last digits") {
 }
 
 TEST_CASE("a place is found in the tet that holds it, among many") {
-  const MeshData data = asset("bracket.meshb");
+  const MeshData data = read_mesh(asset("bracket.meshb"));
   std::vector<std::uint32_t> all(data.tets.size());
   for (std::uint32_t t = 0; t < all.size(); ++t) all[t] = t;
   const face::Bodies bodies(data);

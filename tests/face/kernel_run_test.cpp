@@ -11,29 +11,28 @@
 #include "face/kernel/run.h"
 #include "face/kernel/transaction.h"
 #include "tests/face/meshes.h"
+#include "tests/face/own_flip.h"
 
-using namespace tetmend::kernel;
+namespace tetmend::kernel {
+
 using tetmend::test::message_of;
 using tetmend::test::shaken_cube;
 
 namespace {
 
-Operators own_flip(std::size_t* calls = nullptr) {
+Operators counting_flip(std::size_t* calls = nullptr) {
   Operators own;
   own.add(
       "own_flip", "three tets of an edge become two",
       [calls](const TetMesh& look, TetEdge e, Proposal& out) {
         if (calls != nullptr) ++*calls;
-        const Ring r = look.ring(e);
-        if (!r.closed || r.tets.size() != 3) return Verdict::not_applicable;
-        const auto& p = r.vertices;
-        return out.replace(r.tets, {{r.a, p[0], p[1], p[2]}, {p[0], p[1], p[2], r.b}});
+        return test::flip_to_two(look, e, out);
       },
       Judge::by([](Judge::Tets before, Judge::Tets now) { return now.size() < before.size(); }));
   return own;
 }
 
-std::vector<std::array<double, 3>> points_of(const TetMesh& mesh) {
+std::vector<std::array<double, 3>> kernel_points(const TetMesh& mesh) {
   std::vector<std::array<double, 3>> points;
   for (VertexHandle v : mesh.vertices()) {
     const Point p = mesh.point(v);
@@ -51,7 +50,7 @@ std::vector<std::array<std::uint32_t, 4>> tets_of(const TetMesh& mesh) {
   return tets;
 }
 
-std::size_t count_bad(const TetMesh& mesh) {
+std::size_t count_below_goal(const TetMesh& mesh) {
   const auto tets = mesh.tets();
   return static_cast<std::size_t>(
       std::count_if(tets.begin(), tets.end(), [&](TetHandle t) { return mesh.quality(t) < 1; }));
@@ -76,14 +75,14 @@ QualityIndicators improve_by_rounds(Run& run) {
 TEST_CASE("a schedule in C++ improves a mesh, with the same bytes for every number of threads") {
   TetMesh mesh{Mesh(shaken_cube(26, 0.8))};  // large enough to be divided
   TetMesh other(mesh);
-  const std::size_t bad = count_bad(mesh);
+  const std::size_t bad = count_below_goal(mesh);
   Run run(mesh);
   const QualityIndicators now = improve_by_rounds(run);
   CHECK(now.n_bad < bad / 4);
   CHECK(mesh.check().empty());
   Run by_three(other, {.threads = 3});
   improve_by_rounds(by_three);
-  CHECK(points_of(mesh) == points_of(other));
+  CHECK(kernel_points(mesh) == kernel_points(other));
   CHECK(tets_of(mesh) == tets_of(other));
 }
 
@@ -122,7 +121,7 @@ TEST_CASE("operators of a program are tried by passes, compositions and scripts"
   }
   TetMesh other(mesh);
   std::size_t calls = 0;
-  const Operators own = own_flip(&calls);
+  const Operators own = counting_flip(&calls);
   Run run(mesh, {.threads = 2, .operators = &own});
   const std::size_t tets = mesh.tet_count();
   const PassDone flips = run.apply("own_flip", {.below = Selection::kAll});
@@ -157,7 +156,7 @@ TEST_CASE(
             return out.replace(std::array{t}, {{v[0], v[1], v[2], VertexHandle()}});
           });
   TetMesh mesh{Mesh(shaken_cube(4, 1.0))};
-  const auto points = points_of(mesh);
+  const auto points = kernel_points(mesh);
   Run run(mesh, {.operators = &own});
   const std::string message = message_of([&] { run.apply("fails"); });
   CHECK(message.find("fails") != std::string::npos);
@@ -167,7 +166,7 @@ TEST_CASE(
     CHECK(done.attempts > 0);
     CHECK(done.accepted == 0);
   }
-  CHECK(points_of(mesh) == points);
+  CHECK(kernel_points(mesh) == points);
   CHECK(mesh.check().empty());
 }
 
@@ -240,3 +239,5 @@ TEST_CASE("a run ends with its attempts, and another goal is worked towards when
   CHECK(run.indicators().n_bad > bad);
   CHECK(message_of([&] { run.set_goal({.min_angle = -3}); }).starts_with("goal: "));
 }
+
+}  // namespace tetmend::kernel

@@ -24,14 +24,14 @@
 #include "face/kernel/transaction.h"
 #include "face/mesh_access.h"
 #include "tests/face/meshes.h"
+#include "tests/face/own_flip.h"
 #include "tests/support/costly.h"
 #include "tests/support/mixed_mesh.h"
 #include "tests/support/second_order.h"
 
-using namespace tetmend::kernel;
-using tetmend::MeshData;
+namespace tetmend::kernel {
+
 using tetmend::test::message_of;
-namespace contract = tetmend::contract;
 
 namespace {
 
@@ -776,13 +776,7 @@ TEST_CASE("an attempt that is only tried shows its tree and leaves the mesh alon
 TEST_CASE("an operator of a program does what that of tetmend does, under the same judge") {
   TetMesh mesh = ball();
   Operators own;
-  own.add("my_flip", "three tets of an edge become two",
-          [](const TetMesh& look, TetEdge e, Proposal& out) {
-            const Ring r = look.ring(e);
-            if (!r.closed || r.tets.size() != 3) return Verdict::not_applicable;
-            const auto& p = r.vertices;
-            return out.replace(r.tets, {{r.a, p[0], p[1], p[2]}, {p[0], p[1], p[2], r.b}});
-          });
+  own.add("my_flip", "three tets of an edge become two", test::flip_to_two);
   std::size_t accepted = 0;
   for (const TetEdge e : mesh.edges()) {
     const Picture before = picture_of(mesh);
@@ -944,3 +938,5 @@ TEST_CASE("a program that was compiled with other headers is told both versions"
         }).find("other sizes") != std::string::npos);
   CHECK(message_of([] { check_layout({"0.1.7", sum_of_sizes()}); }).empty());
 }
+
+}  // namespace tetmend::kernel

@@ -8,12 +8,11 @@
 #include <doctest/doctest.h>
 
 #include "tests/kernel/formats/fixtures.h"
+#include "tests/support/assets.h"
 
 using namespace tetmend::test;
 
 namespace {
-
-const std::filesystem::path kSource = TETMEND_SOURCE_DIR;
 
 /// What stands between ```LANGUAGE and ```.
 std::vector<std::string> blocks_of(const std::string& page, const std::string& language) {

@@ -11,22 +11,10 @@
 #include <tetmend/io.h>
 #include <tetmend/mesh.h>
 
+#include "tests/support/assets.h"
+#include "tests/support/errors.h"
+
 namespace tetmend::test {
-
-inline std::string asset(const std::string& name) {
-  return std::string(TETMEND_SOURCE_DIR) + "/assets/meshes/" + name;
-}
-
-/// The message of the Error that the call throws; empty when it throws none.
-template <class Call>
-std::string message_of(const Call& call) {
-  try {
-    call();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return {};
-}
 
 /// Two tets that share a face, every kind of entity, every label.
 inline MeshArrays two_tet_arrays() {

@@ -16,7 +16,7 @@ namespace {
 
 using Corners = std::array<Point, 4>;
 
-double volume(const Corners& t) {
+double corner_volume(const Corners& t) {
   return std::abs(volume6(t[0], t[1], t[2], t[3])) / 6;
 }
 
@@ -55,8 +55,8 @@ TEST_CASE("the overlap of two tets is the share of points in both") {
 
 TEST_CASE("a tet shares all with itself, nothing with a neighbour, and parts add up") {
   const Corners a = {Point(0, 0, 0), Point(1, 0, 0), Point(0, 1, 0), Point(0, 0, 1)};
-  CHECK(overlap(a, a) == doctest::Approx(volume(a)));
-  CHECK(overlap(a, {a[1], a[0], a[2], a[3]}) == doctest::Approx(volume(a)));
+  CHECK(overlap(a, a) == doctest::Approx(corner_volume(a)));
+  CHECK(overlap(a, {a[1], a[0], a[2], a[3]}) == doctest::Approx(corner_volume(a)));
   CHECK(overlap(a, {a[1], a[2], a[3], Point(1, 1, 1)}) == doctest::Approx(0));
   const Point inside(0.2, 0.3, 0.1);
   const Corners b = {Point(-1, 0.1, 0), Point(1, 0.2, 0.1), Point(0.3, 1, 0.2), Point(0.2, 0, 2)};

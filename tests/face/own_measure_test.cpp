@@ -19,11 +19,12 @@
 #include "face/mesh_access.h"
 #include "kernel/quality.h"
 #include "tests/face/meshes.h"
+#include "tests/face/own_flip.h"
 #include "tests/kernel/formats/fixtures.h"
 
-using namespace tetmend::kernel;
+namespace tetmend::kernel {
+
 using tetmend::test::message_of;
-namespace contract = tetmend::contract;
 
 namespace {
 
@@ -63,13 +64,7 @@ std::size_t count_bad(const Mesh& mesh, double good) {
 
 Operators own_flip() {
   Operators own;
-  own.add("my_flip", "three tets of an edge become two",
-          [](const TetMesh& look, TetEdge e, Proposal& out) {
-            const Ring r = look.ring(e);
-            if (!r.closed || r.tets.size() != 3) return Verdict::not_applicable;
-            const auto& p = r.vertices;
-            return out.replace(r.tets, {{r.a, p[0], p[1], p[2]}, {p[0], p[1], p[2], r.b}});
-          });
+  own.add("my_flip", "three tets of an edge become two", test::flip_to_two);
   return own;
 }
 
@@ -275,3 +270,5 @@ TEST_CASE("an operator of a program with the name of one of tetmend is refused")
   CHECK(message_of([&] { tetmend::improve(mesh, {.operators = &own}); }).find("twice") !=
         std::string::npos);
 }
+
+}  // namespace tetmend::kernel

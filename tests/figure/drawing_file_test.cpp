@@ -6,9 +6,11 @@
 
 #include "kernel/error.h"
 #include "tests/kernel/formats/fixtures.h"
+#include "tests/support/text.h"
 
 using namespace tetmend;
 using namespace tetmend::figure;
+using namespace tetmend::test;
 
 namespace {
 
@@ -19,12 +21,6 @@ Drawing example() {
   drawing.add(Dot{{100, 50}, 5, kBlack});
   drawing.add(Text{{20, 90}, "p <(1)\\", 8, Font::bold});
   return drawing;
-}
-
-std::size_t count(const std::string& text, const std::string& what) {
-  std::size_t n = 0;
-  for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + 1)) ++n;
-  return n;
 }
 
 bool contains(const std::string& text, const std::string& what) {
@@ -93,9 +89,9 @@ TEST_CASE("a patch lies behind its words, and words of nothing leave no mark") {
   drawing.add(text);
   drawing.add(Text{{1, 1}, "", 8});
   const std::string svg = svg_of(drawing);
-  CHECK(count(svg, "<text") == 1);
+  CHECK(count_of(svg, "<text") == 1);
   CHECK(svg.find("<polygon") < svg.find("<text"));
-  CHECK(count(svg, "<polygon") == 1);
+  CHECK(count_of(svg, "<polygon") == 1);
 }
 
 TEST_CASE("a file is written whole under .svg or .pdf, and under no other name") {

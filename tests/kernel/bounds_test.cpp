@@ -16,29 +16,28 @@
 #include "kernel/tet_mesh.h"
 #include "ops/registry.h"
 #include "schedule/schedule.h"
+#include "tests/support/registry.h"
+#include "tests/support/tets.h"
 
 using namespace tetmend;
 using namespace tetmend::contract;
+using namespace tetmend::test;
 
 namespace {
 
-using Corners = std::array<Point, 4>;
-
-const Registry kRegistry = Registry::builtin();
-
-bool admits(const Bounds& bounds, const Corners& p) {
+bool admits(const Bounds& bounds, const TetPoints& p) {
   return bounds.admit(p[0], p[1], p[2], p[3]);
 }
 
 /// A tet with an edge along z of the given dihedral angle, in degrees.
-Corners wedge(double angle) {
+TetPoints wedge_points(double angle) {
   const double turn = angle * 3.14159265358979323846 / 180;
   return {Point(0, 0, -0.5), Point(0, 0, 0.5), Point(1, 0, 0),
           Point(std::cos(turn), std::sin(turn), 0)};
 }
 
 /// The tet, and apart from it a needle of better angles, by which other figures are bounded.
-TetMesh mesh_of(const Corners& p) {
+TetMesh mesh_with_needle(const TetPoints& p) {
   MeshData data;
   data.points.assign(p.begin(), p.end());
   data.tets.push_back({{0, 1, 2, 3}, 0});
@@ -46,18 +45,6 @@ TetMesh mesh_of(const Corners& p) {
                      {{10, 0, 0}, {11, 0, 0}, {10.5, std::sqrt(0.75), 0}, {10.5, 0.3, 30}});
   data.tets.push_back({{4, 5, 6, 7}, 0});
   return TetMesh(data);
-}
-
-double edge_ratio(const Corners& p) {
-  double shortest = 1e300;
-  double longest = 0;
-  for (std::size_t i = 0; i < 4; ++i) {
-    for (std::size_t k = i + 1; k < 4; ++k) {
-      shortest = std::min(shortest, (p[i] - p[k]).norm());
-      longest = std::max(longest, (p[i] - p[k]).norm());
-    }
-  }
-  return longest / shortest;
 }
 
 /// The figures that have bounds, of a whole mesh.
@@ -77,53 +64,53 @@ struct Figures {
     }
   }
   static double of_tet(const TetMesh& mesh, const TetVertices& v) {
-    return ::edge_ratio({mesh.point(v[0]), mesh.point(v[1]), mesh.point(v[2]), mesh.point(v[3])});
+    return test::edge_ratio(mesh.point(v[0]), mesh.point(v[1]), mesh.point(v[2]), mesh.point(v[3]));
   }
 };
 
 }  // namespace
 
 TEST_CASE("a tet may have no smaller and no larger angle than the worst of the mesh") {
-  const Bounds sharp = Bounds::of(mesh_of(wedge(10)));
-  CHECK(admits(sharp, wedge(10.001)));
-  CHECK_FALSE(admits(sharp, wedge(9.999)));
-  CHECK(admits(sharp, wedge(149)));  // within the goal
-  CHECK_FALSE(admits(sharp, wedge(151)));
-  const Bounds blunt = Bounds::of(mesh_of(wedge(160)));
-  CHECK(admits(blunt, wedge(159)));
-  CHECK_FALSE(admits(blunt, wedge(160.001)));
+  const Bounds sharp = Bounds::of(mesh_with_needle(wedge_points(10)));
+  CHECK(admits(sharp, wedge_points(10.001)));
+  CHECK_FALSE(admits(sharp, wedge_points(9.999)));
+  CHECK(admits(sharp, wedge_points(149)));  // within the goal
+  CHECK_FALSE(admits(sharp, wedge_points(151)));
+  const Bounds blunt = Bounds::of(mesh_with_needle(wedge_points(160)));
+  CHECK(admits(blunt, wedge_points(159)));
+  CHECK_FALSE(admits(blunt, wedge_points(160.001)));
 }
 
 TEST_CASE("of a mesh with bounds the angles get tighter, never looser, and nothing else") {
   MeshData data;
-  const Corners alone = wedge(20);
+  const TetPoints alone = wedge_points(20);
   data.points.assign(alone.begin(), alone.end());
   data.tets.push_back({{0, 1, 2, 3}, 0});
   TetMesh mesh(data);
-  mesh.set_bounds(Bounds::of(mesh_of(wedge(10))));
+  mesh.set_bounds(Bounds::of(mesh_with_needle(wedge_points(10))));
   const Bounds now = Bounds::of(mesh);
-  CHECK(admits(now, wedge(20.001)));
-  CHECK_FALSE(admits(now, wedge(19.999)));
-  const Corners needle = {Point(0, 0, 0), Point(1, 0, 0), Point(0.5, std::sqrt(0.75), 0),
-                          Point(0.5, 0.3, 29)};
+  CHECK(admits(now, wedge_points(20.001)));
+  CHECK_FALSE(admits(now, wedge_points(19.999)));
+  const TetPoints needle = {Point(0, 0, 0), Point(1, 0, 0), Point(0.5, std::sqrt(0.75), 0),
+                            Point(0.5, 0.3, 29)};
   CHECK(admits(now, needle));
   TetMesh without(data);
   CHECK_FALSE(admits(Bounds::of(without), needle));
-  TetMesh worse = mesh_of(wedge(10));
-  worse.set_bounds(Bounds::of(mesh_of(wedge(20))));
-  CHECK_FALSE(admits(Bounds::of(worse), wedge(19.999)));
+  TetMesh worse = mesh_with_needle(wedge_points(10));
+  worse.set_bounds(Bounds::of(mesh_with_needle(wedge_points(20))));
+  CHECK_FALSE(admits(Bounds::of(worse), wedge_points(19.999)));
 }
 
 TEST_CASE("a mesh without bounds admits all") {
-  CHECK(admits({}, wedge(0.01)));
+  CHECK(admits({}, wedge_points(0.01)));
   CHECK(Bounds().safe() < -1e30f);
 }
 
 TEST_CASE(
     "an inverted tet bounds angles and edges as its mirror image does, and ratios not at all") {
-  const auto with_inverted = [](const Corners& sharp) {
+  const auto with_inverted = [](const TetPoints& sharp) {
     MeshData data;
-    const Corners fine = wedge(60);
+    const TetPoints fine = wedge_points(60);
     data.points.assign(fine.begin(), fine.end());
     data.points.push_back(sharp[3]);
     data.points.insert(data.points.end(), {{50, 0, 0}, {51, 0, 0}, {50, 1, 0}, {50, 0, 1}});
@@ -131,21 +118,21 @@ TEST_CASE(
     data.tets = {{{0, 1, 2, 3}, 0}, {{0, 1, 2, 4}, 0}, {{5, 6, 7, 8}, 0}};
     return TetMesh(data);
   };
-  const TetMesh mesh = with_inverted(wedge(10));
+  const TetMesh mesh = with_inverted(wedge_points(10));
   REQUIRE(compute_statistics(mesh).inverted == 1);
   const Bounds bounds = Bounds::of(mesh);
-  CHECK(admits(bounds, wedge(10.001)));
-  CHECK_FALSE(admits(bounds, wedge(9.999)));
+  CHECK(admits(bounds, wedge_points(10.001)));
+  CHECK_FALSE(admits(bounds, wedge_points(9.999)));
   CHECK_FALSE(admits(bounds, {Point(0, 0, 0), Point(11, 0, 0), Point(0, 1, 0), Point(0, 0, 1)}));
-  const Corners flat = {Point(0, 0, 0), Point(1, 0, 0), Point(0, 1, 0), Point(0, 0, 1e-9)};
+  const TetPoints flat = {Point(0, 0, 0), Point(1, 0, 0), Point(0, 1, 0), Point(0, 0, 1e-9)};
   CHECK_FALSE(admits(bounds, flat));
-  const Corners inverted = {Point(1, 0, 0), Point(0, 0, 0), Point(0, 1, 0), Point(0, 0, 1)};
+  const TetPoints inverted = {Point(1, 0, 0), Point(0, 0, 0), Point(0, 1, 0), Point(0, 0, 1)};
   CHECK(admits(bounds, inverted));
-  CHECK_FALSE(admits(Bounds::of(mesh_of(wedge(10))), inverted));
+  CHECK_FALSE(admits(Bounds::of(mesh_with_needle(wedge_points(10))), inverted));
 }
 
 TEST_CASE("widened tet by tet, or part by part, bounds are those of a mesh of these tets") {
-  const TetMesh mesh = mesh_of(wedge(10));
+  const TetMesh mesh = mesh_with_needle(wedge_points(10));
   const Bounds expected = Bounds::of(mesh);
   const Bounds none = Bounds::of_goal(mesh.standard());
   std::array<Bounds, 2> parts = {none, none};
@@ -153,7 +140,7 @@ TEST_CASE("widened tet by tet, or part by part, bounds are those of a mesh of th
     const TetVertices& v = mesh.vertices(TetHandle(slot));
     parts[slot].widen(mesh.point(v[0]), mesh.point(v[1]), mesh.point(v[2]), mesh.point(v[3]));
   }
-  CHECK_FALSE(admits(none, wedge(29)));
+  CHECK_FALSE(admits(none, wedge_points(29)));
   CHECK_FALSE(admits(parts[0], {Point(0, 0, 0), Point(1, 0, 0), Point(0.5, std::sqrt(0.75), 0),
                                 Point(0.5, 0.3, 29)}));
   Bounds all = parts[1];
@@ -163,35 +150,35 @@ TEST_CASE("widened tet by tet, or part by part, bounds are those of a mesh of th
   std::uniform_real_distribution<double> coordinate(-1, 1);
   unsigned admitted = 0;
   for (int i = 0; i < 20'000; ++i) {
-    Corners p;
+    TetPoints p;
     for (Point& x : p) x = Point(coordinate(random), coordinate(random), coordinate(random));
     CHECK(admits(all, p) == admits(expected, p));
     admitted += admits(all, p) ? 1 : 0;
   }
   CHECK(admitted > 1000);
   CHECK(admitted < 19'000);
-  const Corners inverted = {Point(0, 0, 0), Point(0, 1, 0), Point(1, 0, 0), Point(0, 0, 1)};
+  const TetPoints inverted = {Point(0, 0, 0), Point(0, 1, 0), Point(1, 0, 0), Point(0, 0, 1)};
   CHECK_FALSE(admits(all, inverted));
   all.widen(inverted[0], inverted[1], inverted[2], inverted[3]);
   CHECK(admits(all, inverted));
-  CHECK_FALSE(admits(all, wedge(0.001)));
+  CHECK_FALSE(admits(all, wedge_points(0.001)));
 }
 
 TEST_CASE("a tet of the quality that is called safe keeps the bounds") {
   std::mt19937 random(5);
   std::uniform_real_distribution<double> coordinate(-1, 1);
   for (const double angle : {5.0, 12.0, 170.0}) {
-    const TetMesh mesh = mesh_of(wedge(angle));
+    const TetMesh mesh = mesh_with_needle(wedge_points(angle));
     const Bounds bounds = Bounds::of(mesh);
     unsigned safe = 0;
     for (int i = 0; i < 200'000; ++i) {
-      Corners p;
+      TetPoints p;
       for (Point& x : p) x = Point(coordinate(random), coordinate(random), coordinate(random));
       if (i % 2 == 0) p[1] = p[0] + 0.1 * p[1];  // a short edge
       if (mesh.standard().quality(p[0], p[1], p[2], p[3]) < bounds.safe()) continue;
       ++safe;
       REQUIRE(admits(bounds, p));
-      REQUIRE(edge_ratio(p) < 10);
+      REQUIRE(edge_ratio(p[0], p[1], p[2], p[3]) < 10);
     }
     CHECK(safe > 100);
   }

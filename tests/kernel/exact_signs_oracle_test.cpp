@@ -111,13 +111,13 @@ Points of_denormals(Random& random) {
   return each_coordinate([&] { return integer(random, 3) * unit; });
 }
 
-struct Kind {
+struct HardCases {
   const char* name;
   Points (*make)(Random&);
   double least_zeros;  ///< share of flat tets: the cases are hard, or this would prove nothing
 };
 
-constexpr std::array<Kind, 9> kKinds = {{
+constexpr std::array<HardCases, 9> kKinds = {{
     {"at random", at_random, 0},
     {"near a lattice", near_a_lattice, 0.01},
     {"in a plane", in_a_plane, 1},
@@ -130,7 +130,7 @@ constexpr std::array<Kind, 9> kKinds = {{
 }};
 
 void compare_orientations(std::size_t count) {
-  for (const Kind& kind : kKinds) {
+  for (const HardCases& kind : kKinds) {
     CAPTURE(std::string(kind.name));
     Random random(1);
     std::size_t different = 0;
@@ -158,7 +158,7 @@ TEST_CASE("ten million orientations are those of CGAL" * doctest::skip()) {
 }
 
 TEST_CASE("sides of spheres are those of CGAL") {
-  for (const Kind& kind : kKinds) {
+  for (const HardCases& kind : kKinds) {
     CAPTURE(std::string(kind.name));
     Random random(2);
     std::size_t different = 0;

@@ -8,6 +8,7 @@
 #include <doctest/doctest.h>
 
 #include "kernel/statistics.h"
+#include "tests/support/mesh_parts.h"
 #include "tests/support/zoo.h"
 
 namespace tetmend {
@@ -53,16 +54,6 @@ bool finds_only(const TetMesh& mesh, Kind kind) {
   return only && !findings.empty();
 }
 
-/// An inner half-face of the mesh.
-HalfFace inner_face(const TetMesh& mesh) {
-  for (const TetHandle t : live_tets(mesh)) {
-    for (unsigned f = 0; f < 4; ++f) {
-      if (!mesh.is_boundary(HalfFace(t, f))) return HalfFace(t, f);
-    }
-  }
-  FAIL("no inner face");
-  return {};
-}
 HalfFace outer_face(const TetMesh& mesh) {
   for (const TetHandle t : live_tets(mesh)) {
     for (unsigned f = 0; f < 4; ++f) {

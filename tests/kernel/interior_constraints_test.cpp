@@ -13,6 +13,7 @@
 #include "kernel/shell.h"
 #include "kernel/tet_mesh.h"
 #include "kernel/workspace.h"
+#include "tests/support/mesh_parts.h"
 #include "tests/support/zoo.h"
 
 using namespace tetmend;
@@ -33,14 +34,6 @@ MeshData layered_cube() {
   return data;
 }
 
-std::uint32_t vertex_at(const MeshData& data, double x, double y, double z) {
-  const auto found = std::find_if(data.points.begin(), data.points.end(), [&](const Point& p) {
-    return (p - Point(x, y, z)).norm() < 1e-9;
-  });
-  REQUIRE(found != data.points.end());
-  return static_cast<std::uint32_t>(found - data.points.begin());
-}
-
 std::size_t constrained_edges(const TetMesh& mesh) {
   std::set<std::array<VertexHandle, 2>> edges;
   for (const TetHandle t : live_tets(mesh)) {
@@ -57,7 +50,7 @@ std::size_t constrained_edges(const TetMesh& mesh) {
 
 TEST_CASE("dropping takes what lies inside a region, and nothing of boundary and borders") {
   MeshData data = layered_cube();
-  const auto at = [&](double x, double y, double z) { return vertex_at(data, x, y, z); };
+  const auto at = [&](double x, double y, double z) { return vertex_at(data, Point(x, y, z)); };
   // On the boundary, between the labels, inside the lower region; each an edge of the grid.
   const std::uint32_t outer = at(0.25, 0.25, 0), outer_x = at(0.5, 0.25, 0),
                       outer_xy = at(0.5, 0.5, 0);

@@ -20,9 +20,9 @@ using namespace tetmend::test;
 
 namespace {
 
-using Values = std::vector<Quality>;
+using Qualities = std::vector<Quality>;
 
-bool takes(const Judge& judge, const Values& now, const Values& before,
+bool takes(const Judge& judge, const Qualities& now, const Qualities& before,
            const Judge::Aim& aim = {}) {
   Comparison qualities(before, now);
   return judge.holds_for(qualities, aim);
@@ -58,31 +58,31 @@ std::vector<std::vector<Quality>> sample_vectors(int count) {
 }  // namespace
 
 TEST_CASE("a quality vector improves when its first different entry is larger") {
-  CHECK(improves(Values{0.2f, 0.3f}, Values{0.1f, 0.9f}));
-  CHECK_FALSE(improves(Values{0.1f, 0.9f}, Values{0.2f, 0.3f}));
-  CHECK(improves(Values{0.1f, 0.4f}, Values{0.1f, 0.3f, 0.8f}));
-  CHECK_FALSE(improves(Values{0.1f, 0.3f}, Values{0.1f, 0.3f}));
-  CHECK(improves(Values{-0.1f}, Values{-0.2f}));
-  CHECK(improves(Values{0.f}, Values{-0.2f, 0.9f}));
+  CHECK(improves(Qualities{0.2f, 0.3f}, Qualities{0.1f, 0.9f}));
+  CHECK_FALSE(improves(Qualities{0.1f, 0.9f}, Qualities{0.2f, 0.3f}));
+  CHECK(improves(Qualities{0.1f, 0.4f}, Qualities{0.1f, 0.3f, 0.8f}));
+  CHECK_FALSE(improves(Qualities{0.1f, 0.3f}, Qualities{0.1f, 0.3f}));
+  CHECK(improves(Qualities{-0.1f}, Qualities{-0.2f}));
+  CHECK(improves(Qualities{0.f}, Qualities{-0.2f, 0.9f}));
 }
 
 TEST_CASE("of two quality vectors of which one continues the other, the shorter is better") {
-  CHECK(improves(Values{0.1f, 0.3f}, Values{0.1f, 0.3f, 0.9f}));
-  CHECK_FALSE(improves(Values{0.1f, 0.3f, 0.9f}, Values{0.1f, 0.3f}));
-  CHECK(improves(Values{}, Values{0.9f}));
-  CHECK_FALSE(improves(Values{0.9f}, Values{}));
-  CHECK_FALSE(improves(Values{}, Values{}));
+  CHECK(improves(Qualities{0.1f, 0.3f}, Qualities{0.1f, 0.3f, 0.9f}));
+  CHECK_FALSE(improves(Qualities{0.1f, 0.3f, 0.9f}, Qualities{0.1f, 0.3f}));
+  CHECK(improves(Qualities{}, Qualities{0.9f}));
+  CHECK_FALSE(improves(Qualities{0.9f}, Qualities{}));
+  CHECK_FALSE(improves(Qualities{}, Qualities{}));
 }
 
 TEST_CASE("a gain within the tolerance decides nothing, a loss within it forbids") {
   const Quality little = 0.5f * kQualityTolerance;
   const Quality more = 2.0f * kQualityTolerance;
-  CHECK_FALSE(improves(Values{0.25f + little}, Values{0.25f}));
-  CHECK(improves(Values{0.25f + more}, Values{0.25f}));
-  CHECK(improves(Values{0.25f + little, 0.5f}, Values{0.25f, 0.4f}));
-  CHECK_FALSE(improves(Values{0.25f - little, 0.5f}, Values{0.25f, 0.4f}));
-  CHECK(improves(Values{0.25f + little}, Values{0.25f, 0.4f}));
-  CHECK_FALSE(improves(Values{0.25f - little}, Values{0.25f, 0.4f}));
+  CHECK_FALSE(improves(Qualities{0.25f + little}, Qualities{0.25f}));
+  CHECK(improves(Qualities{0.25f + more}, Qualities{0.25f}));
+  CHECK(improves(Qualities{0.25f + little, 0.5f}, Qualities{0.25f, 0.4f}));
+  CHECK_FALSE(improves(Qualities{0.25f - little, 0.5f}, Qualities{0.25f, 0.4f}));
+  CHECK(improves(Qualities{0.25f + little}, Qualities{0.25f, 0.4f}));
+  CHECK_FALSE(improves(Qualities{0.25f - little}, Qualities{0.25f, 0.4f}));
 }
 
 TEST_CASE("improves is a strict order and never contradicts the exact lexicographic one") {
@@ -113,22 +113,22 @@ TEST_CASE("a strict judge takes a better quality vector, whatever the order it c
 
 TEST_CASE("a fair judge lets bad tets lack no more in sum") {
   const Judge fair = Judge::fair({.desperate = 0});
-  const Values before = {0.6f, 0.8f};
+  const Qualities before = {0.6f, 0.8f};
   CHECK(takes(fair, {0.62f, 0.8f}, before));
-  CHECK_FALSE(takes(fair, {0.58f, 1.2f}, before));      // the worst is worse
-  CHECK_FALSE(takes(fair, Values(100, 0.7f), before));  // they lack more
-  CHECK(takes(fair, Values(2, 0.7f), before));
+  CHECK_FALSE(takes(fair, {0.58f, 1.2f}, before));         // the worst is worse
+  CHECK_FALSE(takes(fair, Qualities(100, 0.7f), before));  // they lack more
+  CHECK(takes(fair, Qualities(2, 0.7f), before));
 }
 
 TEST_CASE("with a large exponent mild bad tets hardly count, and with 1 each counts") {
-  const Values before = {0.2f, 1.8f};
-  const Values now = {0.4f, 0.8f, 0.8f};
+  const Qualities before = {0.2f, 1.8f};
+  const Qualities now = {0.4f, 0.8f, 0.8f};
   CHECK(takes(Judge::fair({.exponent = 12, .desperate = 0}), now, before));
   CHECK_FALSE(takes(Judge::fair({.exponent = 1, .desperate = 0}), now, before));
 }
 
 TEST_CASE("where a new bad tet has a price, the worst tet must gain it for each") {
-  const Values before = {0.2f, 1.8f};
+  const Qualities before = {0.2f, 1.8f};
   const Judge::Aim priced = {.price = 0.1};
   for (const Judge& judge : {Judge::strict(), Judge::reaches(1.2f)}) {
     CHECK(takes(judge, {0.29f, 1.8f}, before, priced));  // none is new
@@ -142,7 +142,7 @@ TEST_CASE("where a new bad tet has a price, the worst tet must gain it for each"
 }
 
 TEST_CASE("where the worst tet is desperate, a gain pays for a new bad tet for each 0.002") {
-  const Values before = {0.2f, 0.9f, 1.6f};
+  const Qualities before = {0.2f, 0.9f, 1.6f};
   // An exponent of 1, so that the sum never speaks for these.
   const Judge fair = Judge::fair({.exponent = 1, .desperate = 0.4});
   CHECK(takes(fair, {0.203f, 0.2f + 0.4f, 0.6f, 1.8f}, before));
@@ -153,12 +153,12 @@ TEST_CASE("where the worst tet is desperate, a gain pays for a new bad tet for e
   CHECK_FALSE(takes(Judge::fair({.exponent = 1, .desperate = 0.2}), {0.22f, 0.6f, 0.6f}, before));
   // Without a price, any gain pays for any number.
   const Judge generous = Judge::fair({.desperate = 0.4, .price = 0});
-  CHECK(takes(generous, Values(100, 0.22f), before));
+  CHECK(takes(generous, Qualities(100, 0.22f), before));
 }
 
 TEST_CASE("a fair judge asked for no more bad tets takes a gain where nothing is bad as well") {
-  const Values before = {0.5f, 1.8f};
-  const Values now = {0.9f, 0.9f};
+  const Qualities before = {0.5f, 1.8f};
+  const Qualities now = {0.9f, 0.9f};
   CHECK(takes(Judge::fair({}), now, before));
   CHECK_FALSE(takes(Judge::fair({.more_bad = false}), now, before));
   CHECK(takes(Judge::fair({.more_bad = false}), {1.4f}, {1.2f}));
@@ -178,7 +178,7 @@ TEST_CASE("a judge with a goal spares bad tets and lets good ones pay") {
 
 TEST_CASE("a smaller angle pays for bad tets, but not for a worse one") {
   const Judge judge = Judge::lowers_angle(1.0);
-  const Values before = {0.6f, 0.8f, 1.02f};
+  const Qualities before = {0.6f, 0.8f, 1.02f};
   CHECK(takes(judge, before, before, {.sine = 1.002002}));
   CHECK_FALSE(takes(judge, before, before, {.sine = 1.0018}));
   CHECK(takes(judge, {0.6f, 0.98f, 0.98f}, before, {.sine = 1.002002}));

@@ -10,10 +10,12 @@
 
 #include "kernel/quality.h"
 #include "kernel/rulers.h"
+#include "tests/support/tets.h"
 #include "tests/support/threads.h"
 #include "tests/support/zoo.h"
 
 using namespace tetmend;
+using namespace tetmend::test;
 
 namespace {
 
@@ -36,13 +38,6 @@ Counts count_literally(const TetMesh& mesh, const RulerBins& bins, const Measure
     ++counts[static_cast<std::size_t>(next - edges.begin()) - 1];
   }
   return counts;
-}
-
-double edge_ratio(const Point& a, const Point& b, const Point& c, const Point& d) {
-  const std::array lengths = {(b - a).norm(), (c - a).norm(), (d - a).norm(),
-                              (c - b).norm(), (d - b).norm(), (d - c).norm()};
-  const auto [least, greatest] = std::minmax_element(lengths.begin(), lengths.end());
-  return *greatest / *least;
 }
 
 }  // namespace

@@ -15,27 +15,22 @@
 #include "kernel/chunks.h"
 #include "kernel/formats/mesh_io.h"
 #include "kernel/quality.h"
+#include "tests/support/tets.h"
 #include "tests/support/threads.h"
 #include "tests/support/zoo.h"
 
 using namespace tetmend;
+using namespace tetmend::test;
 using tetmend::test::on_threads;
 
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-MeshData single_tet(const Point& a, const Point& b, const Point& c, const Point& d) {
-  MeshData data;
-  data.points = {a, b, c, d};
-  data.tets = {{{0, 1, 2, 3}}};
-  return data;
-}
-
 /// The values of one ruler for all tets or faces, as the definitions have them.
-using Values = std::array<std::vector<double>, kRulerCount>;
+using RulerValues = std::array<std::vector<double>, kRulerCount>;
 
-void add_tet(const std::array<Point, 4>& p, Values& values) {
+void add_tet(const std::array<Point, 4>& p, RulerValues& values) {
   const double v6 = volume6(p[0], p[1], p[2], p[3]);
   double longest = 0;
   double shortest = kInfinity;
@@ -96,13 +91,13 @@ double skewness(const std::array<Point, 3>& face, const Point& here, const Point
   return skew.norm() / extent;
 }
 
-std::array<Point, 4> corners(const TetMesh& mesh, TetHandle t) {
+std::array<Point, 4> corner_points(const TetMesh& mesh, TetHandle t) {
   const TetVertices& v = mesh.vertices(t);
   return {mesh.point(v[0]), mesh.point(v[1]), mesh.point(v[2]), mesh.point(v[3])};
 }
 
-Point centroid(const TetMesh& mesh, TetHandle t) {
-  const auto p = corners(mesh, t);
+Point tet_centroid(const TetMesh& mesh, TetHandle t) {
+  const auto p = corner_points(mesh, t);
   return (p[0] + p[1] + p[2] + p[3]) / 4;
 }
 
@@ -112,7 +107,7 @@ std::vector<double> direct_steps(const TetMesh& mesh) {
   for (std::uint32_t slot = 0; slot < mesh.tet_slots(); ++slot) {
     const TetHandle t(slot);
     if (mesh.is_deleted(t)) continue;
-    const auto p = corners(mesh, t);
+    const auto p = corner_points(mesh, t);
     const double volume = volume6(p[0], p[1], p[2], p[3]) / 6;
     for (unsigned f = 0; f < 4; ++f) {
       const auto& [i, j, k] = kFaceVertices[f];
@@ -130,21 +125,21 @@ std::vector<double> direct_steps(const TetMesh& mesh) {
 }
 
 /// Of non_orthogonality the cosines.
-Values direct_values(const TetMesh& mesh) {
-  Values values;
+RulerValues direct_values(const TetMesh& mesh) {
+  RulerValues values;
   values[10] = direct_steps(mesh);
   for (std::uint32_t slot = 0; slot < mesh.tet_slots(); ++slot) {
     const TetHandle t(slot);
     if (mesh.is_deleted(t)) continue;
-    const auto p = corners(mesh, t);
+    const auto p = corner_points(mesh, t);
     add_tet(p, values);
     for (unsigned f = 0; f < 4; ++f) {
       const HalfFace twin = mesh.twin(HalfFace(t, f));
       if (!twin.is_outside() && twin.tet() < t) continue;
       const auto& [i, j, k] = kFaceVertices[f];
       const std::array<Point, 3> face = {p[i], p[j], p[k]};
-      const Point here = centroid(mesh, t);
-      const Point there = twin.is_outside() ? here : centroid(mesh, twin.tet());
+      const Point here = tet_centroid(mesh, t);
+      const Point there = twin.is_outside() ? here : tet_centroid(mesh, twin.tet());
       values[9].push_back(skewness(face, here, twin.is_outside() ? nullptr : &there));
       if (twin.is_outside()) continue;
       const Point normal = (face[1] - face[0]).cross(face[2] - face[0]).normalized();
@@ -155,7 +150,7 @@ Values direct_values(const TetMesh& mesh) {
 }
 
 MeshRulers direct_rulers(const TetMesh& mesh) {
-  Values values = direct_values(mesh);
+  RulerValues values = direct_values(mesh);
   MeshRulers rulers;
   rulers.inner_faces = values[8].size();
   for (const double cosine : values[8]) {

@@ -26,7 +26,7 @@ MeshData scaled(MeshData data, int exponent) {
   return data;
 }
 
-std::string complaint(const MeshData& data) {
+std::string building_error(const MeshData& data) {
   try {
     TetMesh mesh(data);
   } catch (const Error& error) {
@@ -96,31 +96,31 @@ TEST_CASE("a volume that no double holds is written out all the same") {
 
 TEST_CASE("meshes that are too small, too large or both are refused with a reason") {
   const MeshData data = zoo_data("ball_20");
-  CHECK(complaint(data).empty());
-  CHECK(complaint(scaled(data, 700)).find("too large: its width must be from") !=
+  CHECK(building_error(data).empty());
+  CHECK(building_error(scaled(data, 700)).find("too large: its width must be from") !=
         std::string::npos);
-  CHECK(complaint(scaled(data, -700)).find("too small") != std::string::npos);
-  CHECK(complaint(scaled(data, -1060)).find("too small") != std::string::npos);
+  CHECK(building_error(scaled(data, -700)).find("too small") != std::string::npos);
+  CHECK(building_error(scaled(data, -1060)).find("too small") != std::string::npos);
 
   MeshData mixed = scaled(data, 500);
   mixed.points.push_back({1e-300, 0, 0});
-  CHECK(complaint(mixed).find("coordinates from 1e-300 to ") != std::string::npos);
+  CHECK(building_error(mixed).find("coordinates from 1e-300 to ") != std::string::npos);
   MeshData denormal = scaled(data, -500);
   denormal.points.push_back({5e-324, 0, 0});
-  CHECK(complaint(denormal).find("too far apart") != std::string::npos);
+  CHECK(building_error(denormal).find("too far apart") != std::string::npos);
 }
 
 TEST_CASE("a coordinate that all points share must fit as well") {
   MeshData flat = scaled(one_tet(), -332);
   for (Point& p : flat.points) p.x() = 1e300;
-  CHECK(complaint(flat).find("too far apart") != std::string::npos);
+  CHECK(building_error(flat).find("too far apart") != std::string::npos);
 }
 
 TEST_CASE("noise beside zero is no reason to refuse a mesh of ordinary size") {
   MeshData data = zoo_data("ball_20");
   data.points[0].x() = 5e-324;
   data.points[1].y() = -1e-200;
-  CHECK(complaint(data).empty());
+  CHECK(building_error(data).empty());
   CHECK(make_mesh(data).to_data().points == data.points);
 }
 

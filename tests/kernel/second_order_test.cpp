@@ -30,7 +30,7 @@ MeshData sample() {
   return mesh;
 }
 
-std::string error_of(MeshData mesh) {
+std::string second_order_error(MeshData mesh) {
   try {
     take_second_order(mesh);
   } catch (const Error& error) {
@@ -100,14 +100,14 @@ TEST_CASE("nodes that make no sense are refused") {
   const MeshData good = with_second_order(sample());
   MeshData bad = good;
   std::swap(bad.other_elements[0].vertices[5], bad.other_elements[0].vertices[6]);
-  CHECK(error_of(bad).find("has two nodes") != std::string::npos);
+  CHECK(second_order_error(bad).find("has two nodes") != std::string::npos);
   bad = good;
   for (OtherElements& others : bad.other_elements) {
     for (std::uint32_t& v : others.vertices) {
       if (v == good.other_elements[0].vertices[7]) v = good.other_elements[0].vertices[3];
     }
   }
-  CHECK(error_of(bad).find("a vertex of a tet") != std::string::npos);
+  CHECK(second_order_error(bad).find("a vertex of a tet") != std::string::npos);
 }
 
 TEST_CASE("in a mesh of both orders the tets of second order pass as they are") {

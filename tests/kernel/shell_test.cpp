@@ -17,11 +17,11 @@ using namespace tetmend::test;
 
 namespace {
 
-using Edge = std::pair<VertexHandle, VertexHandle>;
+using ShellEdge = std::pair<VertexHandle, VertexHandle>;
 
 /// All edges of the mesh with the tets around each.
-std::map<Edge, std::set<TetHandle>> shells_of(const TetMesh& mesh) {
-  std::map<Edge, std::set<TetHandle>> shells;
+std::map<ShellEdge, std::set<TetHandle>> shells_of(const TetMesh& mesh) {
+  std::map<ShellEdge, std::set<TetHandle>> shells;
   for (const TetHandle t : live_tets(mesh)) {
     for (unsigned e = 0; e < 6; ++e) {
       const auto [a, b] = mesh.vertices(TetEdge(t, e));
@@ -73,7 +73,7 @@ TEST_CASE("find_shell tells closed from boundary on every edge of a mesh") {
   for (const char* name : {"ball_60", "cube_2", "open_shell_7", "touching_at_edge"}) {
     CAPTURE(name);
     const TetMesh mesh = make_mesh(zoo_data(name));
-    std::set<Edge> boundary;
+    std::set<ShellEdge> boundary;
     for (const SurfaceTriangle& triangle : mesh.surface_triangles()) {
       for (unsigned i = 0; i < 3; ++i) {
         boundary.insert(std::minmax(triangle.vertices[i], triangle.vertices[(i + 1) % 3]));
@@ -104,7 +104,7 @@ TEST_CASE("a ring meets each tet once, from whichever tet it starts") {
       for (const TetHandle start : tets) {
         std::vector<TetHandle> met;
         const Ring around = ring(mesh, *edge_in(mesh, start, edge.first, edge.second));
-        CHECK(Edge(std::minmax(around.a, around.b)) == edge);
+        CHECK(ShellEdge(std::minmax(around.a, around.b)) == edge);
         for (const TetHandle t : around.tets) {
           REQUIRE(edge_in(mesh, t, edge.first, edge.second));
           met.push_back(t);

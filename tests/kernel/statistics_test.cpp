@@ -19,9 +19,11 @@
 #include "kernel/tet_mesh.h"
 #include "kernel/transaction.h"
 #include "kernel/workspace.h"
+#include "tests/support/tets.h"
 #include "tests/support/threads.h"
 
 using namespace tetmend;
+using namespace tetmend::test;
 using tetmend::test::on_threads;
 
 namespace {
@@ -66,13 +68,6 @@ MeshData jittered(MeshData data, double amount) {
   std::mt19937 random(3);
   std::uniform_real_distribution<double> offset(-amount, amount);
   for (Point& p : data.points) p += Point(offset(random), offset(random), offset(random));
-  return data;
-}
-
-MeshData single_tet(const Point& a, const Point& b, const Point& c, const Point& d) {
-  MeshData data;
-  data.points = {a, b, c, d};
-  data.tets = {{{0, 1, 2, 3}}};
   return data;
 }
 

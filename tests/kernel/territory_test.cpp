@@ -59,7 +59,7 @@ bool find_inner_shell(Halves& halves, Shell& shell) {
 }
 
 /// Splits the edge of a shell: two tets for each.
-std::vector<TetVertices> split(const Shell& shell, VertexHandle v) {
+std::vector<TetVertices> split_edge_tets(const Shell& shell, VertexHandle v) {
   std::vector<TetVertices> tets;
   for (unsigned i = 0; i < shell.degree; ++i) {
     tets.push_back({shell.a, v, shell.ring[i], shell.next(i)});
@@ -160,7 +160,7 @@ TEST_CASE("an edit that reaches out of the territory is refused, whatever it is,
           transaction.add_vertex(0.5 * (halves.mesh.point(shell.a) + halves.mesh.point(shell.b)));
       REQUIRE(middle.is_valid());
       workspace.forget_border();
-      CHECK(transaction.replace_cavity(old, split(shell, middle)) == EditResult::no_room);
+      CHECK(transaction.replace_cavity(old, split_edge_tets(shell, middle)) == EditResult::no_room);
       CHECK(workspace.met_border());
     }
   }
@@ -217,7 +217,8 @@ TEST_CASE("an edit takes the slots that were given, and too few are no room") {
           transaction.add_vertex(0.5 * (halves.mesh.point(shell.a) + halves.mesh.point(shell.b)));
       REQUIRE(v.is_valid());
       CHECK(halves.left().holds(v));
-      result = transaction.replace_cavity({shell.tets.data(), shell.degree}, split(shell, v));
+      result =
+          transaction.replace_cavity({shell.tets.data(), shell.degree}, split_edge_tets(shell, v));
       if (result == EditResult::made) transaction.keep();
     }
     workspace.leave(slots);

@@ -10,23 +10,24 @@
 
 #include <doctest/doctest.h>
 
+#include "tests/support/tets.h"
+
 using namespace tetmend;
+using namespace tetmend::test;
 
 namespace {
-
-using Corners = std::array<Point, 4>;
 
 const std::array<Standard, 4> kStandards = {Standard(), Standard(Goal{}), Standard(Goal{35, 140}),
                                             Standard(Goal{20, 170}, Standard::Terms::sine)};
 
-Corners random_tet(std::mt19937& random, double size) {
+TetPoints random_tet(std::mt19937& random, double size) {
   std::uniform_real_distribution<double> coordinate(-size, size);
-  Corners tet;
+  TetPoints tet;
   for (Point& p : tet) p = Point(coordinate(random), coordinate(random), coordinate(random));
   return tet;
 }
 
-void check_same(const std::vector<Corners>& tets, const Standard& standard) {
+void check_batch(const std::vector<TetPoints>& tets, const Standard& standard) {
   TetBatch batch;
   batch.add(Point(9, 0, 0), Point(0, 9, 0), Point(0, 0, 9), Point(9, 9, 9));
   batch.clear();
@@ -34,7 +35,7 @@ void check_same(const std::vector<Corners>& tets, const Standard& standard) {
   batch.evaluate(standard);
   for (std::size_t i = 0; i < tets.size(); ++i) {
     CAPTURE(i);
-    const Corners& t = tets[i];
+    const TetPoints& t = tets[i];
     const auto quality = static_cast<Quality>(standard.quality(t[0], t[1], t[2], t[3]));
     CHECK(std::bit_cast<std::uint32_t>(batch.quality(i)) == std::bit_cast<std::uint32_t>(quality));
     CHECK(batch.is_certified_positive(i) == certified_positive(t[0], t[1], t[2], t[3]));
@@ -48,18 +49,18 @@ TEST_CASE(
   std::mt19937 random(1);
   for (const double size : {1e-40, 1e-3, 1.0, 1e6}) {
     for (std::size_t count = 1; count <= 9; ++count) {
-      std::vector<Corners> tets;
+      std::vector<TetPoints> tets;
       while (tets.size() < count) tets.push_back(random_tet(random, size));
-      for (const Standard& standard : kStandards) check_same(tets, standard);
+      for (const Standard& standard : kStandards) check_batch(tets, standard);
     }
   }
 }
 
 TEST_CASE("flat, degenerate and nearly flat tets in a batch are judged as by themselves") {
   std::mt19937 random(2);
-  std::vector<Corners> tets;
+  std::vector<TetPoints> tets;
   for (int i = 0; i < 100; ++i) {
-    Corners tet = random_tet(random, 1);
+    TetPoints tet = random_tet(random, 1);
     const Point middle = (tet[0] + tet[1] + tet[2]) / 3;
     for (const double height : {0.0, 1e-17, -1e-17, 1e-16, 1e-15, 1e-9}) {
       tet[3] = middle + height * (tet[1] - tet[0]).cross(tet[2] - tet[0]);
@@ -68,5 +69,5 @@ TEST_CASE("flat, degenerate and nearly flat tets in a batch are judged as by the
     tets.push_back({tet[0], tet[1], tet[2], tet[0]});
     tets.push_back({tet[0], tet[0], tet[0], tet[0]});
   }
-  for (const Standard& standard : kStandards) check_same(tets, standard);
+  for (const Standard& standard : kStandards) check_batch(tets, standard);
 }

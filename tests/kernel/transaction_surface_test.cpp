@@ -16,6 +16,7 @@
 #include "kernel/surface_shell.h"
 #include "kernel/transaction.h"
 #include "kernel/workspace.h"
+#include "tests/support/mesh_parts.h"
 #include "tests/support/zoo.h"
 
 using namespace tetmend;
@@ -29,7 +30,7 @@ TetMesh free_mesh(const MeshData& data) {
   return mesh;
 }
 
-struct Cavity {
+struct SurfaceCavity {
   std::vector<TetHandle> old;
   std::vector<TetVertices> created;
   std::vector<Label> labels;
@@ -61,8 +62,8 @@ bool is_flat_diagonal(const TetMesh& mesh, const SurfaceShell& shell, unsigned s
   return true;
 }
 
-Cavity flip(const TetMesh& mesh, const SurfaceShell& shell) {
-  Cavity cavity;
+SurfaceCavity flip_cavity(const TetMesh& mesh, const SurfaceShell& shell) {
+  SurfaceCavity cavity;
   for (unsigned s = 0; s < shell.side_count; ++s) {
     const ShellSide& side = shell.sides[s];
     const auto& p = side.ring;
@@ -74,8 +75,8 @@ Cavity flip(const TetMesh& mesh, const SurfaceShell& shell) {
   return cavity;
 }
 
-Cavity split(const TetMesh& mesh, const SurfaceShell& shell, VertexHandle m) {
-  Cavity cavity;
+SurfaceCavity split_cavity(const TetMesh& mesh, const SurfaceShell& shell, VertexHandle m) {
+  SurfaceCavity cavity;
   for (unsigned s = 0; s < shell.side_count; ++s) {
     const ShellSide& side = shell.sides[s];
     for (unsigned i = 0; i < side.count; ++i) {
@@ -88,8 +89,8 @@ Cavity split(const TetMesh& mesh, const SurfaceShell& shell, VertexHandle m) {
   return cavity;
 }
 
-Cavity contraction(const TetMesh& mesh, VertexHandle v, VertexHandle w) {
-  Cavity cavity;
+SurfaceCavity contraction(const TetMesh& mesh, VertexHandle v, VertexHandle w) {
+  SurfaceCavity cavity;
   for (const HalfFace f : link(mesh, v)) {
     cavity.old.push_back(f.tet());
     const auto [a, b, c] = mesh.vertices(f);
@@ -98,13 +99,6 @@ Cavity contraction(const TetMesh& mesh, VertexHandle v, VertexHandle w) {
     cavity.labels.push_back(mesh.label(f.tet()));
   }
   return cavity;
-}
-
-VertexHandle vertex_at(const TetMesh& mesh, const Point& place) {
-  for (const VertexHandle v : live_vertices(mesh)) {
-    if ((mesh.point(v) - place).norm() < 1e-9) return v;
-  }
-  return {};
 }
 
 void check_sound(TetMesh mesh) {
@@ -133,7 +127,7 @@ TEST_CASE("a diagonal of a plane side is flipped, and flipped back bit for bit")
   REQUIRE(shell);
   {
     Transaction transaction(mesh, workspace);
-    REQUIRE(flip(mesh, *shell).make(transaction) == EditResult::made);
+    REQUIRE(flip_cavity(mesh, *shell).make(transaction) == EditResult::made);
     CHECK_FALSE(mesh == start);
   }
   CHECK(mesh == start);
@@ -141,12 +135,12 @@ TEST_CASE("a diagonal of a plane side is flipped, and flipped back bit for bit")
     Transaction outer(mesh, workspace);
     {
       Transaction inner(mesh, workspace);
-      REQUIRE(flip(mesh, *shell).make(inner) == EditResult::made);
+      REQUIRE(flip_cavity(mesh, *shell).make(inner) == EditResult::made);
       inner.keep();
     }
     outer.undo();
     CHECK(mesh == start);
-    REQUIRE(flip(mesh, *shell).make(outer) == EditResult::made);
+    REQUIRE(flip_cavity(mesh, *shell).make(outer) == EditResult::made);
     outer.keep();
   }
   check_sound(mesh);
@@ -162,7 +156,7 @@ TEST_CASE("without a guard, or where an edge is a feature, the surface stays") {
     Workspace workspace(fixed);
     const TetMesh before = fixed;
     Transaction transaction(fixed, workspace);
-    CHECK(flip(fixed, *shell).make(transaction) == EditResult::constrained);
+    CHECK(flip_cavity(fixed, *shell).make(transaction) == EditResult::constrained);
     CHECK(move(transaction, vertex_at(fixed, {0.5, 0.5, 0}), {0.5, 0.6, 0}, workspace) ==
           EditResult::constrained);
     CHECK(fixed == before);
@@ -174,7 +168,7 @@ TEST_CASE("without a guard, or where an edge is a feature, the surface stays") {
   });
   REQUIRE(edge);
   Transaction transaction(free, workspace);
-  CHECK(flip(free, *edge).make(transaction) != EditResult::made);
+  CHECK(flip_cavity(free, *edge).make(transaction) != EditResult::made);
   CHECK(free == before);
 }
 
@@ -211,19 +205,19 @@ TEST_CASE("new vertices of the surface are fixed for other operators, and can va
   {
     Transaction transaction(mesh, workspace);
     m = transaction.add_vertex(0.5 * (mesh.point(shell->a) + mesh.point(shell->b)));
-    REQUIRE(split(mesh, *shell, m).make(transaction) == EditResult::made);
+    REQUIRE(split_cavity(mesh, *shell, m).make(transaction) == EditResult::made);
     CHECK(mesh.is_boundary(m));
     transaction.undo();
     CHECK(mesh == start);
     m = transaction.add_vertex(0.5 * (mesh.point(shell->a) + mesh.point(shell->b)));
-    REQUIRE(split(mesh, *shell, m).make(transaction) == EditResult::made);
+    REQUIRE(split_cavity(mesh, *shell, m).make(transaction) == EditResult::made);
     transaction.keep();
   }
   CHECK(mesh.surface_guard()->place(m) == SurfacePlace::smooth);
   check_sound(mesh);
   const TetMesh split_mesh = mesh;
   Transaction transaction(mesh, workspace);
-  const Cavity cavity = contraction(mesh, m, shell->a);
+  const SurfaceCavity cavity = contraction(mesh, m, shell->a);
   CHECK(transaction.replace_cavity(cavity.old, cavity.created) == EditResult::constrained);
   CHECK(mesh == split_mesh);
   REQUIRE(cavity.make(transaction) == EditResult::made);
@@ -239,7 +233,7 @@ TEST_CASE("a wall between two regions is flipped from both sides at once") {
   const auto shell = find_shell(mesh, [&](const auto& s) { return is_flat_diagonal(mesh, s, 2); });
   REQUIRE(shell);
   Transaction transaction(mesh, workspace);
-  Cavity cavity = flip(mesh, *shell);
+  SurfaceCavity cavity = flip_cavity(mesh, *shell);
   std::vector<Label> wrong = cavity.labels;
   std::reverse(wrong.begin(), wrong.end());
   CHECK(transaction.replace_at_surface(cavity.old, cavity.created, wrong) != EditResult::made);

@@ -16,6 +16,7 @@
 #include "kernel/star.h"
 #include "kernel/surface_fingerprint.h"
 #include "kernel/workspace.h"
+#include "tests/support/mesh_parts.h"
 #include "tests/support/zoo.h"
 
 using namespace tetmend;
@@ -25,7 +26,7 @@ namespace {
 
 // --- stencils ------------------------------------------------------------------------------------
 
-struct Cavity {
+struct TetCavity {
   std::vector<TetHandle> old;
   std::vector<TetVertices> created;
 };
@@ -36,9 +37,9 @@ TetVertices with(TetVertices tet, unsigned i, VertexHandle v) {
 }
 
 /// Two tets at an inner face become three around the line between their apexes.
-Cavity flip_23(const TetMesh& mesh, HalfFace face) {
+TetCavity flip_23(const TetMesh& mesh, HalfFace face) {
   const HalfFace twin = mesh.twin(face);
-  Cavity cavity{{face.tet(), twin.tet()}, {}};
+  TetCavity cavity{{face.tet(), twin.tet()}, {}};
   const VertexHandle apex = mesh.vertices(twin.tet())[twin.face()];
   for (unsigned i = 0; i < 4; ++i) {
     if (i != face.face()) cavity.created.push_back(with(mesh.vertices(face.tet()), i, apex));
@@ -47,15 +48,15 @@ Cavity flip_23(const TetMesh& mesh, HalfFace face) {
 }
 
 /// Three tets around an edge become two. Precondition: a closed shell of degree 3.
-Cavity flip_32(const Shell& shell) {
+TetCavity flip_32(const Shell& shell) {
   const auto& p = shell.ring;
   return {{shell.tets[0], shell.tets[1], shell.tets[2]},
           {{p[0], p[1], p[2], shell.b}, {p[0], p[2], p[1], shell.a}}};
 }
 
 /// Each tet of a shell becomes two, m in the place of a and of b.
-Cavity split_edge(const TetMesh& mesh, TetEdge edge, VertexHandle m) {
-  Cavity cavity;
+TetCavity split_edge(const TetMesh& mesh, TetEdge edge, VertexHandle m) {
+  TetCavity cavity;
   const auto [a, b] = mesh.vertices(edge);
   for (const TetHandle t : ring(mesh, edge).tets) {
     cavity.old.push_back(t);
@@ -66,17 +67,17 @@ Cavity split_edge(const TetMesh& mesh, TetEdge edge, VertexHandle m) {
   return cavity;
 }
 
-Cavity split_tet(const TetMesh& mesh, TetHandle t, VertexHandle m) {
-  Cavity cavity{{t}, {}};
+TetCavity split_tet(const TetMesh& mesh, TetHandle t, VertexHandle m) {
+  TetCavity cavity{{t}, {}};
   for (unsigned i = 0; i < 4; ++i) cavity.created.push_back(with(mesh.vertices(t), i, m));
   return cavity;
 }
 
 /// Four tets around a vertex become one.
-std::optional<Cavity> remove_vertex(const TetMesh& mesh, VertexHandle v) {
+std::optional<TetCavity> remove_vertex(const TetMesh& mesh, VertexHandle v) {
   const auto faces = link(mesh, v);
   if (faces.size() != 4) return std::nullopt;
-  Cavity cavity;
+  TetCavity cavity;
   for (const HalfFace f : faces) cavity.old.push_back(f.tet());
   const auto ring = one_ring(mesh, v);
   if (ring.size() != 4) return std::nullopt;
@@ -93,26 +94,16 @@ Point middle(const TetMesh& mesh, const TetVertices& v) {
   return (mesh.point(v[0]) + mesh.point(v[1]) + mesh.point(v[2]) + mesh.point(v[3])) / 4;
 }
 
-EditResult replace(Transaction& tx, const Cavity& cavity) {
+EditResult replace(Transaction& tx, const TetCavity& cavity) {
   return tx.replace_cavity(cavity.old, cavity.created);
 }
 
-HalfFace inner_face(const TetMesh& mesh) {
-  for (const TetHandle t : live_tets(mesh)) {
-    for (unsigned f = 0; f < 4; ++f) {
-      if (!mesh.is_boundary(HalfFace(t, f))) return HalfFace(t, f);
-    }
-  }
-  FAIL("no inner face");
-  return {};
-}
-
 /// A 2-3 flip whose new tets are all positive.
-Cavity valid_flip_23(const TetMesh& mesh) {
+TetCavity valid_flip_23(const TetMesh& mesh) {
   for (const TetHandle t : live_tets(mesh)) {
     for (unsigned f = 0; f < 4; ++f) {
       if (mesh.is_boundary(HalfFace(t, f))) continue;
-      const Cavity cavity = flip_23(mesh, HalfFace(t, f));
+      const TetCavity cavity = flip_23(mesh, HalfFace(t, f));
       if (std::all_of(cavity.created.begin(), cavity.created.end(),
                       [&](const TetVertices& v) { return mesh.is_certified_positive(v); })) {
         return cavity;
@@ -240,7 +231,7 @@ class RandomEditor {
   bool closes(const Shell& shell) const {
     return mesh_.local_index(shell.tets[2], shell.ring[0]) != 4;
   }
-  EditResult logged(Transaction& tx, const Cavity& cavity) {
+  EditResult logged(Transaction& tx, const TetCavity& cavity) {
     const EditResult result = replace(tx, cavity);
     if (result == EditResult::made) {
       log_.insert(log_.end(), tx.created().begin(), tx.created().end());
@@ -395,21 +386,21 @@ TEST_CASE("refused edits say why and change nothing") {
   const TetMesh before = mesh;
   Workspace workspace(mesh);
   Transaction tx(mesh, workspace);
-  const Cavity flip = valid_flip_23(mesh);
+  const TetCavity flip = valid_flip_23(mesh);
 
-  Cavity incomplete = flip;
+  TetCavity incomplete = flip;
   incomplete.created.pop_back();
   CHECK(replace(tx, incomplete) == EditResult::not_closed);
-  Cavity larger = flip;
+  TetCavity larger = flip;
   larger.old.pop_back();
   CHECK(replace(tx, larger) == EditResult::not_closed);
-  Cavity twice = flip;
+  TetCavity twice = flip;
   twice.created.push_back(twice.created[0]);
   CHECK(replace(tx, twice) == EditResult::not_closed);
-  Cavity turned = flip;
+  TetCavity turned = flip;
   std::swap(turned.created[1][0], turned.created[1][1]);
   CHECK(replace(tx, turned) == EditResult::inverted);
-  Cavity pinched = flip;
+  TetCavity pinched = flip;
   pinched.created[0][1] = pinched.created[0][0];
   CHECK(replace(tx, pinched) == EditResult::inverted);
   CHECK(tx.empty());
@@ -426,7 +417,7 @@ TEST_CASE(
     const TetVertices v = mesh.vertices(t);
     Point middle = Point::Zero();
     for (const VertexHandle w : v) middle += 0.25 * mesh.point(w);
-    const Cavity cavity = split_tet(mesh, t, tx.add_vertex(middle));
+    const TetCavity cavity = split_tet(mesh, t, tx.add_vertex(middle));
     REQUIRE(tx.replace_cavity(cavity.old, cavity.created) == EditResult::made);
     tx.keep();
     const VertexHandle m = mesh.vertices(t)[0] == v[0] ? mesh.vertices(t)[3] : mesh.vertices(t)[0];
@@ -745,7 +736,7 @@ TEST_CASE("compare gives the qualities of all that was touched, before and now, 
   CHECK(before.empty());
   CHECK(now.empty());
 
-  const Cavity flip = valid_flip_23(mesh);
+  const TetCavity flip = valid_flip_23(mesh);
   std::vector<Quality> expected = {mesh.quality(flip.old[0]), mesh.quality(flip.old[1])};
   std::sort(expected.begin(), expected.end());
   REQUIRE(replace(tx, flip) == EditResult::made);

@@ -6,6 +6,7 @@
 #include <doctest/doctest.h>
 
 #include "kernel/workspace.h"
+#include "tests/ops/insertions.h"
 #include "tests/support/lone_worker.h"
 #include "tests/support/octahedron.h"
 
@@ -14,21 +15,17 @@ using namespace tetmend::test;
 
 namespace {
 
-Verdict insert(LoneWorker& worker, const Corners& tet, const ParameterSettings& settings = {}) {
+Verdict insert_in_cavity(LoneWorker& worker, const Corners& tet,
+                         const ParameterSettings& settings = {}) {
   return worker.attempt("cavity_insertion", worker.tet(tet), settings);
 }
-
-const Corners kTarget = {0, 1, 2, 3};
-/// What becomes of octahedron() when all its tets give way to a vertex 6.
-const std::set<Corners> kEightTets = {{0, 2, 3, 6}, {0, 3, 4, 6}, {0, 4, 5, 6}, {0, 2, 5, 6},
-                                      {1, 2, 3, 6}, {1, 3, 4, 6}, {1, 4, 5, 6}, {1, 2, 5, 6}};
 
 /// Tries each tet of a mesh on a copy of it; how many attempts were accepted.
 std::size_t count_accepted(const MeshData& data, const ParameterSettings& settings) {
   std::size_t accepted = 0;
   for (const Corners& tet : LoneWorker(data).tets()) {
     LoneWorker worker(data);
-    accepted += insert(worker, tet, settings) == Verdict::accepted ? 1 : 0;
+    accepted += insert_in_cavity(worker, tet, settings) == Verdict::accepted ? 1 : 0;
   }
   return accepted;
 }
@@ -38,8 +35,8 @@ std::size_t count_accepted(const MeshData& data, const ParameterSettings& settin
 TEST_CASE("the tets of a long octahedron give way to a vertex in its middle") {
   LoneWorker worker(octahedron(3, 1, 1));
   const Quality before = worker.worst();
-  REQUIRE(insert(worker, kTarget) == Verdict::accepted);
-  CHECK(worker.tets() == kEightTets);
+  REQUIRE(insert_in_cavity(worker, kTarget) == Verdict::accepted);
+  CHECK(worker.tets() == kAround6);
   CHECK(worker.mesh.point(VertexHandle(6)).norm() < 0.1);
   CHECK(worker.worst() > before);
   CHECK_FALSE(worker.mesh.is_fixed(VertexHandle(6)));
@@ -48,7 +45,7 @@ TEST_CASE("the tets of a long octahedron give way to a vertex in its middle") {
 
 TEST_CASE("a good tet is not divided") {
   LoneWorker worker(one_tet());
-  CHECK(insert(worker, kTarget) == Verdict::no_improvement);
+  CHECK(insert_in_cavity(worker, kTarget) == Verdict::no_improvement);
 }
 
 TEST_CASE("a flat or inverted tet can be the target") {
@@ -58,7 +55,7 @@ TEST_CASE("a flat or inverted tet can be the target") {
     std::size_t accepted = 0;
     for (const Corners& tet : worker.tets()) {
       if (worker.worst() > 0 || !worker.tets().contains(tet)) continue;
-      accepted += insert(worker, tet) == Verdict::accepted ? 1 : 0;
+      accepted += insert_in_cavity(worker, tet) == Verdict::accepted ? 1 : 0;
     }
     CHECK(accepted > 0);
     CHECK(worker.worst() > 0);
@@ -72,7 +69,7 @@ TEST_CASE("an accepted insertion removes its target, in meshes of all kinds") {
     std::size_t accepted = 0;
     for (const Corners& tet : worker.tets()) {
       if (!worker.tets().contains(tet)) continue;
-      if (insert(worker, tet, {{"relax", 0}}) != Verdict::accepted) continue;
+      if (insert_in_cavity(worker, tet, {{"relax", 0}}) != Verdict::accepted) continue;
       ++accepted;
       CHECK_FALSE(worker.tets().contains(tet));
     }
@@ -100,7 +97,7 @@ TEST_CASE("the cavity ends at constrained faces and at other regions") {
                                   {0, 2, 3, 6}, {0, 2, 5, 6}, {1, 2, 3, 6}, {1, 2, 5, 6}};
   for (const MeshData& data : {faces, regions}) {
     LoneWorker worker(data);
-    REQUIRE(insert(worker, kTarget, {{"desperate", 2}}) == Verdict::accepted);
+    REQUIRE(insert_in_cavity(worker, kTarget, {{"desperate", 2}}) == Verdict::accepted);
     CHECK(worker.tets() == half);
   }
 }
@@ -112,7 +109,7 @@ TEST_CASE("a better worst tet is not worth many new bad ones, unless it is despe
   REQUIRE(LoneWorker(faces).worst() > kDesperate);
   const auto verdict = [&](const ParameterSettings& settings) {
     LoneWorker worker(faces);
-    return insert(worker, kTarget, settings);
+    return insert_in_cavity(worker, kTarget, settings);
   };
   CHECK(verdict({}) == Verdict::no_improvement);
   CHECK(verdict({{"desperate", 2}}) == Verdict::accepted);
@@ -133,7 +130,7 @@ TEST_CASE("a constrained edge inside the cavity is kept: the insertion is refuse
   MeshData data = octahedron(3, 1, 1);
   data.edges.push_back({{0, 1}, 1});
   LoneWorker worker(data);
-  CHECK(insert(worker, kTarget) == Verdict::constrained);
+  CHECK(insert_in_cavity(worker, kTarget) == Verdict::constrained);
 }
 
 TEST_CASE("no more than max_tets give way") {
@@ -141,7 +138,7 @@ TEST_CASE("no more than max_tets give way") {
     CAPTURE(most);
     LoneWorker worker(octahedron(3, 1, 1));
     const ParameterSettings settings = {{"max_tets", most}, {"relax", 0}, {"desperate", 2}};
-    const bool taken = insert(worker, kTarget, settings) == Verdict::accepted;
+    const bool taken = insert_in_cavity(worker, kTarget, settings) == Verdict::accepted;
     std::size_t old_tets = 0;
     for (const Corners& tet : worker.tets()) old_tets += tet[3] < 6 ? 1 : 0;
     CHECK(old_tets >= static_cast<std::size_t>(taken ? 4 - most : 4));
@@ -152,11 +149,11 @@ TEST_CASE("an insertion is deferred when the cavity may reach what belongs to ot
   LoneWorker worker(octahedron(3, 1, 1));
   worker.workspace.provide(worker.mesh, 8, 1);
   worker.give_away({4});
-  CHECK(insert(worker, kTarget) == Verdict::deferred);
+  CHECK(insert_in_cavity(worker, kTarget) == Verdict::deferred);
 }
 
 TEST_CASE("an insertion is deferred when the territory has no free slot for a vertex") {
   LoneWorker worker(octahedron(3, 1, 1));
   worker.give_away({});
-  CHECK(insert(worker, kTarget) == Verdict::deferred);
+  CHECK(insert_in_cavity(worker, kTarget) == Verdict::deferred);
 }

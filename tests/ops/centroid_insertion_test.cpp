@@ -4,6 +4,7 @@
 #include <doctest/doctest.h>
 
 #include "kernel/workspace.h"
+#include "tests/ops/insertions.h"
 #include "tests/support/lone_worker.h"
 #include "tests/support/octahedron.h"
 
@@ -12,11 +13,10 @@ using namespace tetmend::test;
 
 namespace {
 
-Verdict insert(LoneWorker& worker, const Corners& tet, const ParameterSettings& settings = {}) {
+Verdict insert_at_centroid(LoneWorker& worker, const Corners& tet,
+                           const ParameterSettings& settings = {}) {
   return worker.attempt("centroid_insertion", worker.tet(tet), settings);
 }
-
-const ParameterSettings kUnsmoothed = {{"smooth", 0}};
 
 // 2 ------------- 01 ------------- 3     A short edge 0-1 near the middle of a long edge 2-3, which
 //                                        it nearly touches: one of the few tets that four pieces
@@ -28,19 +28,12 @@ MeshData needle() {
   return data;
 }
 
-/// What becomes of octahedron() when all its tets give way to a vertex 6.
-const std::set<Corners> kEightTets = {{0, 2, 3, 6}, {0, 3, 4, 6}, {0, 4, 5, 6}, {0, 2, 5, 6},
-                                      {1, 2, 3, 6}, {1, 3, 4, 6}, {1, 4, 5, 6}, {1, 2, 5, 6}};
-
-// These octahedra are flat: needles would be in the way.
-const Standard kSine = Standard(Goal{}, Standard::Terms::sine);
-
 }  // namespace
 
 TEST_CASE("a lone needle is replaced by four tets around its centroid") {
   LoneWorker worker(needle());
   const Quality before = worker.worst();
-  REQUIRE(insert(worker, {0, 1, 2, 3}, kUnsmoothed) == Verdict::accepted);
+  REQUIRE(insert_at_centroid(worker, {0, 1, 2, 3}, kUnsmoothed) == Verdict::accepted);
   CHECK(worker.tets() == std::set<Corners>{{0, 1, 2, 4}, {0, 1, 3, 4}, {0, 2, 3, 4}, {1, 2, 3, 4}});
   CHECK(worker.mesh.point(VertexHandle(4)) == Point(1, 0, -0.5));
   CHECK(worker.worst() > before);
@@ -52,8 +45,8 @@ TEST_CASE("all tets whose circumspheres hold the centroid give way") {
   LoneWorker worker(octahedron(3, 1, 1));
   worker.mesh.set_standard(kSine);
   const Quality before = worker.worst();
-  REQUIRE(insert(worker, {0, 1, 2, 3}, kUnsmoothed) == Verdict::accepted);
-  CHECK(worker.tets() == kEightTets);
+  REQUIRE(insert_at_centroid(worker, {0, 1, 2, 3}, kUnsmoothed) == Verdict::accepted);
+  CHECK(worker.tets() == kAround6);
   CHECK(worker.mesh.point(VertexHandle(6)) == Point(0.25, 0.25, 0));
   CHECK(worker.worst() > before);
 }
@@ -62,9 +55,9 @@ TEST_CASE("smoothing moves the new vertex to a better place before it is judged"
   LoneWorker plain(octahedron(3, 1, 1));
   LoneWorker smoothed(octahedron(3, 1, 1));
   for (LoneWorker* worker : {&plain, &smoothed}) worker->mesh.set_standard(kSine);
-  REQUIRE(insert(plain, {0, 1, 2, 3}, kUnsmoothed) == Verdict::accepted);
-  REQUIRE(insert(smoothed, {0, 1, 2, 3}) == Verdict::accepted);
-  CHECK(smoothed.tets() == kEightTets);
+  REQUIRE(insert_at_centroid(plain, {0, 1, 2, 3}, kUnsmoothed) == Verdict::accepted);
+  REQUIRE(insert_at_centroid(smoothed, {0, 1, 2, 3}) == Verdict::accepted);
+  CHECK(smoothed.tets() == kAround6);
   CHECK(smoothed.mesh.point(VertexHandle(6)).norm() < 0.05);  // the best place is the middle
   CHECK(smoothed.worst() > plain.worst());
 }
@@ -75,7 +68,7 @@ TEST_CASE("a tet stays when the new vertex does not see the face behind it") {
   data.points.push_back({-45, -9, -9});
   data.tets.push_back({{0, 2, 3, 4}, 7});
   LoneWorker worker(data);
-  REQUIRE(insert(worker, {0, 1, 2, 3}, kUnsmoothed) == Verdict::accepted);
+  REQUIRE(insert_at_centroid(worker, {0, 1, 2, 3}, kUnsmoothed) == Verdict::accepted);
   CHECK(worker.tets() ==
         std::set<Corners>{{0, 2, 3, 4}, {0, 1, 2, 5}, {0, 1, 3, 5}, {0, 2, 3, 5}, {1, 2, 3, 5}});
 }
@@ -84,14 +77,15 @@ TEST_CASE("no more than max_tets give way") {
   for (const int most : {1, 2, 3}) {
     CAPTURE(most);
     LoneWorker worker(octahedron(3, 1, 1));
-    const bool taken = insert(worker, {0, 1, 2, 3}, {{"max_tets", most}}) == Verdict::accepted;
+    const bool taken =
+        insert_at_centroid(worker, {0, 1, 2, 3}, {{"max_tets", most}}) == Verdict::accepted;
     std::size_t old_tets = 0;
     for (const Corners& tet : worker.tets()) old_tets += tet[3] < 6 ? 1 : 0;
     CHECK(old_tets == static_cast<std::size_t>(taken ? 4 - most : 4));
   }
   LoneWorker worker(octahedron(3, 1, 1));
-  REQUIRE(insert(worker, {0, 1, 2, 3}, {{"max_tets", 4}}) == Verdict::accepted);
-  CHECK(worker.tets() == kEightTets);
+  REQUIRE(insert_at_centroid(worker, {0, 1, 2, 3}, {{"max_tets", 4}}) == Verdict::accepted);
+  CHECK(worker.tets() == kAround6);
 }
 
 TEST_CASE("a better worst tet is not worth many new bad ones, unless it is desperate") {
@@ -100,8 +94,8 @@ TEST_CASE("a better worst tet is not worth many new bad ones, unless it is despe
   faces.triangles = {{{0, 1, 3}, 1}, {{0, 1, 5}, 1}};
   LoneWorker worker(faces);
   CHECK(worker.worst() > kDesperate);
-  CHECK(insert(worker, {0, 1, 2, 3}) == Verdict::no_improvement);
-  CHECK(insert(worker, {0, 1, 2, 3}, {{"desperate", 2}}) == Verdict::accepted);
+  CHECK(insert_at_centroid(worker, {0, 1, 2, 3}) == Verdict::no_improvement);
+  CHECK(insert_at_centroid(worker, {0, 1, 2, 3}, {{"desperate", 2}}) == Verdict::accepted);
 }
 
 TEST_CASE("the cavity ends at constrained faces and at other regions") {
@@ -114,7 +108,7 @@ TEST_CASE("the cavity ends at constrained faces and at other regions") {
                                   {0, 2, 3, 6}, {0, 2, 5, 6}, {1, 2, 3, 6}, {1, 2, 5, 6}};
   for (const MeshData& data : {faces, regions}) {
     LoneWorker worker(data);
-    REQUIRE(insert(worker, {0, 1, 2, 3}, {{"desperate", 2}}) == Verdict::accepted);
+    REQUIRE(insert_at_centroid(worker, {0, 1, 2, 3}, {{"desperate", 2}}) == Verdict::accepted);
     CHECK(worker.tets() == half);
   }
 }
@@ -123,18 +117,18 @@ TEST_CASE("a constrained edge inside the cavity is kept: the insertion is refuse
   MeshData data = octahedron(3, 1, 1);
   data.edges.push_back({{0, 1}, 1});
   LoneWorker worker(data);
-  CHECK(insert(worker, {0, 1, 2, 3}) == Verdict::constrained);
+  CHECK(insert_at_centroid(worker, {0, 1, 2, 3}) == Verdict::constrained);
 }
 
 TEST_CASE("a regular tet is not divided") {
   LoneWorker worker(one_tet());
-  CHECK(insert(worker, {0, 1, 2, 3}) == Verdict::no_improvement);
+  CHECK(insert_at_centroid(worker, {0, 1, 2, 3}) == Verdict::no_improvement);
 }
 
 TEST_CASE("a flat or inverted tet has no inside to insert a vertex into") {
   for (const double lift : {0.0, -0.1}) {
     LoneWorker worker(middle_tet(lift));
-    CHECK(insert(worker, {0, 1, 2, 3}) == Verdict::not_applicable);
+    CHECK(insert_at_centroid(worker, {0, 1, 2, 3}) == Verdict::not_applicable);
   }
 }
 
@@ -142,11 +136,11 @@ TEST_CASE("an insertion is deferred when the cavity may reach what belongs to ot
   LoneWorker worker(octahedron(3, 1, 1));
   worker.workspace.provide(worker.mesh, 8, 1);
   worker.give_away({4});
-  CHECK(insert(worker, {0, 1, 2, 3}) == Verdict::deferred);
+  CHECK(insert_at_centroid(worker, {0, 1, 2, 3}) == Verdict::deferred);
 }
 
 TEST_CASE("an insertion is deferred when the territory has no free slot for a vertex") {
   LoneWorker worker(octahedron(3, 1, 1));
   worker.give_away({});
-  CHECK(insert(worker, {0, 1, 2, 3}) == Verdict::deferred);
+  CHECK(insert_at_centroid(worker, {0, 1, 2, 3}) == Verdict::deferred);
 }

@@ -5,6 +5,7 @@
 
 #include <doctest/doctest.h>
 
+#include "tests/ops/insertions.h"
 #include "tests/support/lone_worker.h"
 #include "tests/support/octahedron.h"
 
@@ -13,12 +14,10 @@ using namespace tetmend::test;
 
 namespace {
 
-Verdict insert(LoneWorker& worker, const Corners& tet, const ParameterSettings& settings = {}) {
+Verdict insert_at_circumcentre(LoneWorker& worker, const Corners& tet,
+                               const ParameterSettings& settings = {}) {
   return worker.attempt("circumcentre_insertion", worker.tet(tet), settings);
 }
-
-const ParameterSettings kUnsmoothed = {{"smooth", 0}};
-const Corners kTarget = {0, 1, 2, 3};
 
 /// An octahedron of height 6 with the ring (right, 0), (0, back), (-left, 0), (0, -front).
 MeshData uneven_octahedron(double right, double back, double left, double front) {
@@ -32,11 +31,6 @@ MeshData uneven_octahedron(double right, double back, double left, double front)
 const MeshData kCentreInTarget = uneven_octahedron(4, 4, 1, 1);   // 7/8, 7/8
 const MeshData kCentreOpposite = uneven_octahedron(1, 2, 17, 8);  // -4, -5/4: in 0 1 4 5
 const MeshData kCentreOutside = uneven_octahedron(1, 2, 3, 3);
-const std::set<Corners> kEightTets = {{0, 2, 3, 6}, {0, 3, 4, 6}, {0, 4, 5, 6}, {0, 2, 5, 6},
-                                      {1, 2, 3, 6}, {1, 3, 4, 6}, {1, 4, 5, 6}, {1, 2, 5, 6}};
-
-// These octahedra are flat: needles would be in the way.
-const Standard kSine = Standard(Goal{}, Standard::Terms::sine);
 
 }  // namespace
 
@@ -46,8 +40,8 @@ TEST_CASE("all tets whose circumspheres hold the circumcentre of the target give
     LoneWorker worker(data);
     worker.mesh.set_standard(kSine);
     const Quality before = worker.worst();
-    REQUIRE(insert(worker, kTarget, kUnsmoothed) == Verdict::accepted);
-    CHECK(worker.tets() == kEightTets);
+    REQUIRE(insert_at_circumcentre(worker, kTarget, kUnsmoothed) == Verdict::accepted);
+    CHECK(worker.tets() == kAround6);
     CHECK(worker.mesh.point(VertexHandle(6)) == centre);
     CHECK(worker.worst() > before);
     CHECK_FALSE(worker.mesh.is_fixed(VertexHandle(6)));
@@ -58,15 +52,15 @@ TEST_CASE("smoothing moves the new vertex away from the circumcentre before it i
   LoneWorker plain(kCentreOpposite);
   LoneWorker smoothed(kCentreOpposite);
   for (LoneWorker* worker : {&plain, &smoothed}) worker->mesh.set_standard(kSine);
-  REQUIRE(insert(plain, kTarget, kUnsmoothed) == Verdict::accepted);
-  REQUIRE(insert(smoothed, kTarget) == Verdict::accepted);
-  CHECK(smoothed.tets() == kEightTets);
+  REQUIRE(insert_at_circumcentre(plain, kTarget, kUnsmoothed) == Verdict::accepted);
+  REQUIRE(insert_at_circumcentre(smoothed, kTarget) == Verdict::accepted);
+  CHECK(smoothed.tets() == kAround6);
   CHECK(smoothed.worst() > plain.worst() + 0.01f);
 }
 
 TEST_CASE("a circumcentre outside the mesh is refused") {
   LoneWorker worker(kCentreOutside);
-  CHECK(insert(worker, kTarget) == Verdict::constrained);
+  CHECK(insert_at_circumcentre(worker, kTarget) == Verdict::constrained);
 }
 
 TEST_CASE("a circumcentre behind a constrained face or in another region is refused") {
@@ -76,21 +70,21 @@ TEST_CASE("a circumcentre behind a constrained face or in another region is refu
   regions.tets[1].label = regions.tets[2].label = 8;
   for (const MeshData& data : {faces, regions}) {
     LoneWorker worker(data);
-    CHECK(insert(worker, kTarget) == Verdict::constrained);
+    CHECK(insert_at_circumcentre(worker, kTarget) == Verdict::constrained);
   }
 }
 
 TEST_CASE("a target that stays is no reason to insert") {
   // Only the tet opposite may give way.
   LoneWorker worker(kCentreOpposite);
-  CHECK(insert(worker, kTarget, {{"max_tets", 1}}) == Verdict::no_improvement);
+  CHECK(insert_at_circumcentre(worker, kTarget, {{"max_tets", 1}}) == Verdict::no_improvement);
   // In a mesh that is far from Delaunay, a cavity may end before it reaches the target.
   for (const char* name : {"cube_5", "folded_cube_4"}) {
     LoneWorker lattice(zoo_data(name));
     std::size_t accepted = 0;
     for (const Corners& tet : lattice.tets()) {
       if (!lattice.tets().contains(tet)) continue;
-      if (insert(lattice, tet) != Verdict::accepted) continue;
+      if (insert_at_circumcentre(lattice, tet) != Verdict::accepted) continue;
       ++accepted;
       CHECK_FALSE(lattice.tets().contains(tet));
     }
@@ -101,12 +95,12 @@ TEST_CASE("a target that stays is no reason to insert") {
 TEST_CASE("a flat or inverted tet has no circumcentre to go to") {
   for (const double lift : {0.0, -0.1}) {
     LoneWorker worker(middle_tet(lift));
-    CHECK(insert(worker, kTarget) == Verdict::not_applicable);
+    CHECK(insert_at_circumcentre(worker, kTarget) == Verdict::not_applicable);
   }
 }
 
 TEST_CASE("a circumcentre is not looked for in what belongs to others") {
   LoneWorker worker(kCentreOutside);  // which the walk would find out on the far side
   worker.give_away({4, 5});
-  CHECK(insert(worker, kTarget) == Verdict::deferred);
+  CHECK(insert_at_circumcentre(worker, kTarget) == Verdict::deferred);
 }

@@ -16,13 +16,13 @@ using namespace tetmend::test;
 
 namespace {
 
-struct Worker : LoneWorker {
+struct ContractionWorker : LoneWorker {
   using LoneWorker::LoneWorker;
   Verdict attempt(VertexHandle v) { return LoneWorker::attempt("edge_contraction", Target::of(v)); }
 };
 
 /// A regular tet with a vertex inside, close to a corner or in the middle of nowhere.
-MeshData split_tet(const Point& inner) {
+MeshData tet_split_at(const Point& inner) {
   MeshData data = one_tet();
   data.points.push_back(inner);
   const auto corners = data.tets[0].vertices;
@@ -54,7 +54,7 @@ MeshData double_centre(double gap) {
 
 TEST_CASE("a vertex inside a tet is merged into a corner on the boundary, which stays") {
   for (const Point& inner : {Point(0.6, 0.5, 0.5), Point(0, 0, 0), Point(-0.1, 0.2, 0.1)}) {
-    Worker worker(split_tet(inner));
+    ContractionWorker worker(tet_split_at(inner));
     const auto corners = live_vertices(worker.mesh);
     CHECK(worker.attempt(VertexHandle(4)) == Verdict::accepted);
     CHECK(worker.mesh.tet_count() == 1);
@@ -68,7 +68,7 @@ TEST_CASE("a vertex inside a tet is merged into a corner on the boundary, which 
 }
 
 TEST_CASE("of two vertices inside, one is removed and the other moves to where the ball is best") {
-  Worker worker(double_centre(0.08));
+  ContractionWorker worker(double_centre(0.08));
   REQUIRE(count_not_positive(worker.mesh) == 0);
   REQUIRE(worker.worst() < 0.5f);
   CHECK(worker.attempt(VertexHandle(0)) == Verdict::accepted);
@@ -103,11 +103,11 @@ TEST_CASE("the centre of an icosahedron stays: every corner would make a worse b
     }
   }
   REQUIRE(data.tets.size() == 20);
-  CHECK(Worker(data).attempt(VertexHandle(0)) == Verdict::no_improvement);
+  CHECK(ContractionWorker(data).attempt(VertexHandle(0)) == Verdict::no_improvement);
 }
 
 TEST_CASE("vertices on the boundary, on constraints or required by the file are refused") {
-  Worker boundary(double_centre(0.08));
+  ContractionWorker boundary(double_centre(0.08));
   for (std::uint32_t v = 2; v < 8; ++v) {
     CHECK(boundary.attempt(VertexHandle(v)) == Verdict::constrained);
   }
@@ -118,24 +118,24 @@ TEST_CASE("vertices on the boundary, on constraints or required by the file are 
   MeshData face = double_centre(0.08);
   face.triangles.push_back({{0, 1, 2}, 1});
   for (const MeshData& data : {required, edge, face}) {
-    CHECK(Worker(data).attempt(VertexHandle(0)) == Verdict::constrained);
-    CHECK(Worker(data).attempt(VertexHandle(1)) == Verdict::constrained);
+    CHECK(ContractionWorker(data).attempt(VertexHandle(0)) == Verdict::constrained);
+    CHECK(ContractionWorker(data).attempt(VertexHandle(1)) == Verdict::constrained);
   }
 }
 
 TEST_CASE("a kept vertex that the file requires does not move") {
   MeshData data = double_centre(0.08);
   data.required_vertices = {1};
-  Worker worker(data);
+  ContractionWorker worker(data);
   worker.attempt(VertexHandle(0));
   REQUIRE_FALSE(worker.mesh.is_deleted(VertexHandle(1)));
   CHECK(worker.mesh.point(VertexHandle(1)) == data.points[1]);
 }
 
 TEST_CASE("a vertex of no tet and a vertex that is gone are not applicable") {
-  MeshData data = split_tet({0, 0, 0});
+  MeshData data = tet_split_at({0, 0, 0});
   data.points.emplace_back(9, 9, 9);
-  Worker worker(data);
+  ContractionWorker worker(data);
   CHECK(worker.attempt(VertexHandle(5)) == Verdict::not_applicable);
   REQUIRE(worker.attempt(VertexHandle(4)) == Verdict::accepted);
   CHECK(worker.attempt(VertexHandle(4)) == Verdict::not_applicable);

@@ -17,7 +17,7 @@ using namespace tetmend::test;
 
 namespace {
 
-struct Worker : LoneWorker {
+struct SplitWorker : LoneWorker {
   using LoneWorker::LoneWorker;
   Verdict attempt(std::uint32_t a, std::uint32_t b, const ParameterSettings& settings = {}) {
     return LoneWorker::attempt("edge_split", edge(a, b), settings);
@@ -34,7 +34,7 @@ MeshData long_shell() {
 TEST_CASE("splitting a long edge turns its m tets into 2 m around a new vertex") {
   for (unsigned m = 3; m <= 8; ++m) {
     CAPTURE(m);
-    Worker worker(shell_mesh({.degree = m, .height = 4}));
+    SplitWorker worker(shell_mesh({.degree = m, .height = 4}));
     const Quality before = worker.worst();
     REQUIRE(worker.attempt(0, 1) == Verdict::accepted);
     CHECK(worker.mesh.tet_count() == 2 * m);
@@ -49,35 +49,35 @@ TEST_CASE("splitting a long edge turns its m tets into 2 m around a new vertex")
 }
 
 TEST_CASE("a shell of good tets is not split") {
-  Worker worker(shell_mesh({.degree = 5, .height = 0.55}));
+  SplitWorker worker(shell_mesh({.degree = 5, .height = 0.55}));
   CHECK(worker.attempt(0, 1) == Verdict::no_improvement);
   CHECK(worker.mesh.vertex_count() == 7);
 }
 
 TEST_CASE("edges on boundary and constraint are refused") {
-  Worker open(shell_mesh({.degree = 5, .height = 2, .open = true}));
+  SplitWorker open(shell_mesh({.degree = 5, .height = 2, .open = true}));
   CHECK(open.attempt(0, 1) == Verdict::constrained);
-  Worker closed(long_shell());
+  SplitWorker closed(long_shell());
   CHECK(closed.attempt(0, 3) == Verdict::constrained);
   MeshData edge = long_shell();
   edge.edges.push_back({{0, 1}, 1});
-  CHECK(Worker(edge).attempt(0, 1) == Verdict::constrained);
+  CHECK(SplitWorker(edge).attempt(0, 1) == Verdict::constrained);
   MeshData face = long_shell();
   face.triangles.push_back({{0, 1, 2}, 1});
-  CHECK(Worker(face).attempt(0, 1) == Verdict::constrained);
+  CHECK(SplitWorker(face).attempt(0, 1) == Verdict::constrained);
 }
 
 TEST_CASE("a shell of more than max_degree tets is left alone") {
-  CHECK(Worker(long_shell()).attempt(0, 1, {{"max_degree", 5}}) == Verdict::not_applicable);
-  CHECK(Worker(long_shell()).attempt(0, 1, {{"max_degree", 6}}) == Verdict::accepted);
+  CHECK(SplitWorker(long_shell()).attempt(0, 1, {{"max_degree", 5}}) == Verdict::not_applicable);
+  CHECK(SplitWorker(long_shell()).attempt(0, 1, {{"max_degree", 6}}) == Verdict::accepted);
 }
 
 TEST_CASE("a gain below least_gain is refused") {
-  CHECK(Worker(long_shell()).attempt(0, 1, {{"least_gain", 1}}) == Verdict::no_improvement);
+  CHECK(SplitWorker(long_shell()).attempt(0, 1, {{"least_gain", 1}}) == Verdict::no_improvement);
 }
 
 TEST_CASE("with relax the neighbours are smoothed as well, and fixed ones stay") {
-  Worker worker(delaunay_ball(120, 5));
+  SplitWorker worker(delaunay_ball(120, 5));
   const TetMesh start = worker.mesh;
   unsigned accepted = 0;
   unsigned moved = 0;

@@ -21,13 +21,13 @@ MeshData three_tets(double height, double lift = 0) {
   return data;
 }
 
-Verdict flip(LoneWorker& worker, std::uint32_t a, std::uint32_t b) {
+Verdict flip_3_2(LoneWorker& worker, std::uint32_t a, std::uint32_t b) {
   return worker.attempt("flip_3_2", worker.edge(a, b));
 }
 
-Verdict flip(const MeshData& data, std::uint32_t a, std::uint32_t b) {
+Verdict flip_3_2(const MeshData& data, std::uint32_t a, std::uint32_t b) {
   LoneWorker worker(data);
-  return flip(worker, a, b);
+  return flip_3_2(worker, a, b);
 }
 
 }  // namespace
@@ -35,28 +35,28 @@ Verdict flip(const MeshData& data, std::uint32_t a, std::uint32_t b) {
 TEST_CASE("three high tets around an edge give way to the two at the triangle of the ring") {
   LoneWorker worker(three_tets(3));
   const Quality before = worker.worst();
-  REQUIRE(flip(worker, 0, 1) == Verdict::accepted);
+  REQUIRE(flip_3_2(worker, 0, 1) == Verdict::accepted);
   CHECK(worker.tets() == std::set<Corners>{{0, 2, 3, 4}, {1, 2, 3, 4}});
   CHECK(worker.worst() > before);
   for (const TetHandle t : live_tets(worker.mesh)) CHECK(worker.mesh.label(t) == 7);
 }
 
 TEST_CASE("a 3-2 flip undoes what a 2-3 flip would prefer, and refuses") {
-  CHECK(flip(three_tets(0.5), 0, 1) == Verdict::no_improvement);
+  CHECK(flip_3_2(three_tets(0.5), 0, 1) == Verdict::no_improvement);
 }
 
 TEST_CASE("a 3-2 flip of an edge that passes beside the triangle of its ring is inverted") {
-  CHECK(flip(three_tets(3, 4), 0, 1) == Verdict::inverted);
+  CHECK(flip_3_2(three_tets(3, 4), 0, 1) == Verdict::inverted);
 }
 
 TEST_CASE("a shell of another degree is nothing for a 3-2 flip") {
   for (const unsigned m : {4u, 5u}) {
-    CHECK(flip(shell_mesh({.degree = m, .height = 3}), 0, 1) == Verdict::not_applicable);
+    CHECK(flip_3_2(shell_mesh({.degree = m, .height = 3}), 0, 1) == Verdict::not_applicable);
   }
 }
 
 TEST_CASE("a 3-2 flip refuses edges on boundary and constraint") {
-  CHECK(flip(three_tets(3), 0, 2) == Verdict::constrained);
+  CHECK(flip_3_2(three_tets(3), 0, 2) == Verdict::constrained);
   MeshData edge = three_tets(3);
   edge.edges.push_back({{0, 1}, 1});
   MeshData face = three_tets(3);
@@ -64,7 +64,7 @@ TEST_CASE("a 3-2 flip refuses edges on boundary and constraint") {
   MeshData regions = three_tets(3);
   regions.tets[2].label = 8;
   for (const MeshData& data : {edge, face, regions}) {
-    CHECK(flip(data, 0, 1) == Verdict::constrained);
+    CHECK(flip_3_2(data, 0, 1) == Verdict::constrained);
   }
 }
 

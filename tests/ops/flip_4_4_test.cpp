@@ -10,16 +10,13 @@ using namespace tetmend::test;
 
 namespace {
 
-const std::set<Corners> kAround24 = {{0, 2, 3, 4}, {1, 2, 3, 4}, {0, 2, 4, 5}, {1, 2, 4, 5}};
-const std::set<Corners> kAround35 = {{0, 2, 3, 5}, {1, 2, 3, 5}, {0, 3, 4, 5}, {1, 3, 4, 5}};
-
-Verdict flip(LoneWorker& worker, std::uint32_t a, std::uint32_t b) {
+Verdict flip_4_4(LoneWorker& worker, std::uint32_t a, std::uint32_t b) {
   return worker.attempt("flip_4_4", worker.edge(a, b));
 }
 
-Verdict flip(const MeshData& data, std::uint32_t a, std::uint32_t b) {
+Verdict flip_4_4(const MeshData& data, std::uint32_t a, std::uint32_t b) {
   LoneWorker worker(data);
-  return flip(worker, a, b);
+  return flip_4_4(worker, a, b);
 }
 
 }  // namespace
@@ -27,13 +24,13 @@ Verdict flip(const MeshData& data, std::uint32_t a, std::uint32_t b) {
 TEST_CASE("four tets around a long diagonal give way to four around the shorter of the others") {
   LoneWorker along_x(octahedron(5, 2, 3));
   const Quality before = along_x.worst();
-  REQUIRE(flip(along_x, 0, 1) == Verdict::accepted);
+  REQUIRE(flip_4_4(along_x, 0, 1) == Verdict::accepted);
   CHECK(along_x.tets() == kAround24);
   CHECK(along_x.worst() > before);
   for (const TetHandle t : live_tets(along_x.mesh)) CHECK(along_x.mesh.label(t) == 7);
 
   LoneWorker along_y(octahedron(5, 3, 2));
-  REQUIRE(flip(along_y, 0, 1) == Verdict::accepted);
+  REQUIRE(flip_4_4(along_y, 0, 1) == Verdict::accepted);
   CHECK(along_y.tets() == kAround35);
 }
 
@@ -49,26 +46,26 @@ TEST_CASE("where the ring is not convex, the diagonal inside it is taken") {
   data.points[4] = {-2, 0, 0};
   data.points[5] = {1, -2, 0};
   LoneWorker worker(data);
-  REQUIRE(flip(worker, 0, 1) == Verdict::accepted);
+  REQUIRE(flip_4_4(worker, 0, 1) == Verdict::accepted);
   CHECK(worker.tets() == kAround24);
 }
 
 TEST_CASE("a 4-4 flip leaves the shortest diagonal where it is") {
-  CHECK(flip(octahedron(2, 3, 4), 0, 1) == Verdict::no_improvement);
+  CHECK(flip_4_4(octahedron(2, 3, 4), 0, 1) == Verdict::no_improvement);
 }
 
 TEST_CASE("a 4-4 flip of an edge that passes beside its ring is inverted") {
-  CHECK(flip(octahedron(3, 2, 2, 4), 0, 1) == Verdict::inverted);
+  CHECK(flip_4_4(octahedron(3, 2, 2, 4), 0, 1) == Verdict::inverted);
 }
 
 TEST_CASE("a shell of another degree is nothing for a 4-4 flip") {
   for (const unsigned m : {3u, 5u}) {
-    CHECK(flip(shell_mesh({.degree = m, .height = 3}), 0, 1) == Verdict::not_applicable);
+    CHECK(flip_4_4(shell_mesh({.degree = m, .height = 3}), 0, 1) == Verdict::not_applicable);
   }
 }
 
 TEST_CASE("a 4-4 flip refuses edges on boundary and constraint") {
-  CHECK(flip(octahedron(5, 2, 3), 0, 2) == Verdict::constrained);
+  CHECK(flip_4_4(octahedron(5, 2, 3), 0, 2) == Verdict::constrained);
   MeshData edge = octahedron(5, 2, 3);
   edge.edges.push_back({{0, 1}, 1});
   MeshData face = octahedron(5, 2, 3);
@@ -76,7 +73,7 @@ TEST_CASE("a 4-4 flip refuses edges on boundary and constraint") {
   MeshData regions = octahedron(5, 2, 3);
   regions.tets[2].label = 8;
   for (const MeshData& data : {edge, face, regions}) {
-    CHECK(flip(data, 0, 1) == Verdict::constrained);
+    CHECK(flip_4_4(data, 0, 1) == Verdict::constrained);
   }
 }
 

@@ -8,6 +8,7 @@
 
 #include "kernel/workspace.h"
 #include "ops/registry.h"
+#include "tests/support/two_shells.h"
 #include "tests/support/zoo.h"
 #include "trace/text_trace.h"
 
@@ -16,8 +17,8 @@ using namespace tetmend::test;
 
 namespace {
 
-std::string trace_of(const MeshData& data, std::string_view name, Target target,
-                     const ParameterSettings& settings = {}) {
+std::string attempt_trace(const MeshData& data, std::string_view name, Target target,
+                          const ParameterSettings& settings = {}) {
   Registry registry = Registry::builtin();
   TetMesh mesh(data);
   mesh.set_standard(Standard(Goal{}, Standard::Terms::sine));
@@ -29,42 +30,31 @@ std::string trace_of(const MeshData& data, std::string_view name, Target target,
   return trace.text();
 }
 
-/// Two overlapping shells; see recursive_shell_transformation_test.cpp.
-MeshData two_shells() {
-  MeshData data;
-  data.points = {{-0.52, -0.44, 0.73}, {0.52, 0.44, -0.73}, {-0.41, 1.14, 1.12},
-                 {0.95, 0.51, 0.87},   {0.08, 1.55, -0.12}, {-1.02, -0.02, -0.21},
-                 {-0.15, -0.65, -0.19}};
-  data.tets = {{{0, 2, 3, 1}}, {{0, 4, 2, 1}}, {{5, 4, 0, 1}},
-               {{5, 0, 4, 2}}, {{5, 0, 6, 1}}, {{0, 3, 6, 1}}};
-  return data;
-}
-
 }  // namespace
 
 TEST_CASE("the trace of an edge removal names the edge and both quality vectors") {
   const MeshData data = shell_mesh({.degree = 3, .height = 1.4142135623730951});
-  CHECK(trace_of(data, "edge_removal", Target::of(TetEdge(TetHandle(0), 0))) ==
+  CHECK(attempt_trace(data, "edge_removal", Target::of(TetEdge(TetHandle(0), 0))) ==
         "edge_removal(0 1) level 0\n"
         "-> accepted, 3 tets 1.1547 -> 2 tets 1.8856\n");
 }
 
 TEST_CASE("the trace of a refusal has no quality vectors") {
   const MeshData data = shell_mesh({.degree = 3, .height = 0.4});
-  CHECK(trace_of(data, "shell_transformation", Target::of(TetEdge(TetHandle(0), 0))) ==
+  CHECK(attempt_trace(data, "shell_transformation", Target::of(TetEdge(TetHandle(0), 0))) ==
         "shell_transformation(0 1) level 0\n"
         "-> no improvement\n");
-  CHECK(trace_of(data, "flip_2_3", Target::of(HalfFace(TetHandle(0), 0))) ==
+  CHECK(attempt_trace(data, "flip_2_3", Target::of(HalfFace(TetHandle(0), 0))) ==
         "flip_2_3(1 2 3) level 0\n"
         "-> constrained\n");
-  CHECK(trace_of(data, "smoothing", Target::of(VertexHandle(0))) ==
+  CHECK(attempt_trace(data, "smoothing", Target::of(VertexHandle(0))) ==
         "smoothing(0) level 0\n"
         "-> constrained\n");
 }
 
 TEST_CASE("the trace of a recursion shows the calls on the way") {
   const Target target = Target::of(TetEdge(TetHandle(0), 2));
-  CHECK(trace_of(two_shells(), "recursive_shell_transformation", target) ==
+  CHECK(attempt_trace(two_shells(), "recursive_shell_transformation", target) ==
         "recursive_shell_transformation(0 1) level 0\n"
         "  shell_transformation(0 1) level 0\n"
         "  -> no improvement\n"
@@ -77,7 +67,7 @@ TEST_CASE("the trace of a recursion shows the calls on the way") {
         "  shell_transformation(0 1) level 0\n"
         "  -> accepted, 4 tets 0.7058 -> 4 tets 1.0930\n"
         "-> accepted, 6 tets 0.3930 -> 5 tets 1.0930\n");
-  CHECK(trace_of(two_shells(), "recursive_shell_transformation", target, {{"max_level", 0}}) ==
+  CHECK(attempt_trace(two_shells(), "recursive_shell_transformation", target, {{"max_level", 0}}) ==
         "recursive_shell_transformation(0 1) level 0\n"
         "  shell_transformation(0 1) level 0\n"
         "  -> no improvement\n"

@@ -16,6 +16,7 @@
 #include "schedule/passes.h"
 #include "tests/kernel/formats/fixtures.h"
 #include "tests/support/lone_worker.h"
+#include "tests/support/plugin_file.h"
 #include "tests/support/text.h"
 #include "tests/support/threads.h"
 
@@ -26,10 +27,6 @@ using tetmend::contract::kuhn_cube;
 using tetmend::contract::live_vertices;
 
 namespace {
-
-std::string plugin_file(const std::string& name) {
-  return std::string(TETMEND_TEST_PLUGINS) + "/" + name + ".so";
-}
 
 /// The complaint about a file that must not be loaded; checks that it names the file and that the
 /// registry is as before.

@@ -15,12 +15,6 @@ Verdict reconnect(LoneWorker& worker, const Corners& tet, const ParameterSetting
   return worker.attempt("polyhedron_reconnection", worker.tet(tet), settings);
 }
 
-const std::set<Corners> kAround01 = {{0, 1, 2, 3}, {0, 1, 3, 4}, {0, 1, 4, 5}, {0, 1, 2, 5}};
-const std::set<Corners> kAround24 = {{0, 2, 3, 4}, {0, 2, 4, 5}, {1, 2, 3, 4}, {1, 2, 4, 5}};
-
-const std::set<Corners> kAround6 = {{0, 2, 3, 6}, {0, 3, 4, 6}, {0, 4, 5, 6}, {0, 2, 5, 6},
-                                    {1, 2, 3, 6}, {1, 3, 4, 6}, {1, 4, 5, 6}, {1, 2, 5, 6}};
-
 std::vector<Target> the_tet(TetHandle t) {
   return {Target::of(t)};
 }

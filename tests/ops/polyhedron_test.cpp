@@ -21,7 +21,7 @@ using namespace tetmend::test;
 namespace {
 
 /// The corners of the surface as vertices of the mesh, each triangle from its lowest vertex on.
-std::set<std::array<std::uint32_t, 3>> surface_of(const Polyhedron& polyhedron) {
+std::set<std::array<std::uint32_t, 3>> surface_vertices(const Polyhedron& polyhedron) {
   std::set<std::array<std::uint32_t, 3>> all;
   for (const auto& triangle : polyhedron.surface()) {
     std::array<std::uint32_t, 3> corners{};
@@ -92,7 +92,7 @@ TEST_CASE("the surface is what has no twin, and vertices off it are inside") {
     while (polyhedron.grow(worker.mesh, worker.workspace, Polyhedron::kMaxVertices)) {
     }
     REQUIRE(polyhedron.vertices().size() == Polyhedron::kMaxVertices);
-    REQUIRE(surface_of(polyhedron) == faces_without_twin(worker.mesh, polyhedron.tets()));
+    REQUIRE(surface_vertices(polyhedron) == faces_without_twin(worker.mesh, polyhedron.tets()));
     std::set<std::uint32_t> corners;
     for (const TetHandle member : polyhedron.tets()) {
       for (const VertexHandle v : worker.mesh.vertices(member)) corners.insert(v.index());
@@ -163,7 +163,7 @@ TEST_CASE("the ball of a vertex is a polyhedron without that vertex, unless it i
     REQUIRE(polyhedron.start_at_ball(worker.mesh, around));
     CHECK(polyhedron.tets().size() == around.size());
     CHECK(polyhedron.surface().size() == around.size());
-    CHECK(surface_of(polyhedron) == faces_without_twin(worker.mesh, polyhedron.tets()));
+    CHECK(surface_vertices(polyhedron) == faces_without_twin(worker.mesh, polyhedron.tets()));
     CHECK(indices(polyhedron.vertices()).count(v.index()) == 0);
     CHECK(polyhedron.inside() == 0);
     ++balls;

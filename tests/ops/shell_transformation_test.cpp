@@ -20,7 +20,7 @@ using namespace tetmend::test;
 
 namespace {
 
-struct Worker : LoneWorker {
+struct ShellWorker : LoneWorker {
   using LoneWorker::LoneWorker;
   Verdict attempt(const std::string& name, std::uint32_t a, std::uint32_t b) {
     return LoneWorker::attempt(name, edge(a, b));
@@ -28,7 +28,7 @@ struct Worker : LoneWorker {
 };
 
 const std::vector<std::string> kBoth = {"shell_transformation", "edge_removal"};
-constexpr double kRegular = 2 * 0.942809041582063366;
+constexpr double kRegularQuality = 2 * 0.942809041582063366;
 
 /// Around the edge 0 1, ring 2, 3, ...
 MeshData shell_around(const Point& a, const Point& b, const std::vector<Point>& ring) {
@@ -44,17 +44,17 @@ MeshData shell_around(const Point& a, const Point& b, const std::vector<Point>& 
 
 TEST_CASE("three tets around the axis of two regular tets become these two") {
   for (const std::string& name : kBoth) {
-    Worker worker(shell_mesh({.degree = 3, .height = std::numbers::sqrt2}));
+    ShellWorker worker(shell_mesh({.degree = 3, .height = std::numbers::sqrt2}));
     CHECK(worker.attempt(name, 0, 1) == Verdict::accepted);
     CHECK(worker.mesh.tet_count() == 2);
     CHECK_FALSE(worker.has_edge(0, 1));
-    for (const Quality q : worker.qualities()) CHECK(q == doctest::Approx(kRegular));
+    for (const Quality q : worker.qualities()) CHECK(q == doctest::Approx(kRegularQuality));
   }
 }
 
 TEST_CASE("three good tets around a short edge stay") {
   for (const std::string& name : kBoth) {
-    Worker worker(shell_mesh({.degree = 3, .height = 0.4}));
+    ShellWorker worker(shell_mesh({.degree = 3, .height = 0.4}));
     CHECK(worker.attempt(name, 0, 1) == Verdict::no_improvement);
     CHECK(worker.mesh.tet_count() == 3);
   }
@@ -62,8 +62,8 @@ TEST_CASE("three good tets around a short edge stay") {
 
 TEST_CASE("four tets around the longest diagonal of an octahedron turn to the shortest") {
   for (const std::string& name : kBoth) {
-    Worker worker(shell_around({0, 0, -1.2}, {0, 0, 1.2},
-                               {{0.8, 0, 0}, {0, 1, 0}, {-0.8, 0, 0}, {0, -1, 0}}));
+    ShellWorker worker(shell_around({0, 0, -1.2}, {0, 0, 1.2},
+                                    {{0.8, 0, 0}, {0, 1, 0}, {-0.8, 0, 0}, {0, -1, 0}}));
     CHECK(worker.attempt(name, 0, 1) == Verdict::accepted);
     CHECK(worker.mesh.tet_count() == 4);
     CHECK_FALSE(worker.has_edge(0, 1));
@@ -77,7 +77,7 @@ TEST_CASE("four tets around the longest diagonal of an octahedron turn to the sh
 
 TEST_CASE("a regular shell of five, whose edge is short, has no better covering") {
   for (const std::string& name : kBoth) {
-    Worker worker(shell_mesh({.degree = 5, .height = 0.55}));
+    ShellWorker worker(shell_mesh({.degree = 5, .height = 0.55}));
     CHECK(worker.attempt(name, 0, 1) == Verdict::no_improvement);
   }
 }
@@ -86,7 +86,7 @@ TEST_CASE("a long edge is removed for every ring of up to twelve") {
   for (unsigned m = 3; m <= 12; ++m) {
     CAPTURE(m);
     for (const std::string& name : kBoth) {
-      Worker worker(shell_mesh({.degree = m, .height = 3}));
+      ShellWorker worker(shell_mesh({.degree = m, .height = 3}));
       const std::vector<Quality> before = worker.qualities();
       if (worker.attempt(name, 0, 1) != Verdict::accepted) {
         CHECK(m > 5);  // the tets become too thin at the ends of long chords
@@ -103,9 +103,9 @@ TEST_CASE("a partial reduction keeps the edge with a smaller shell where removal
   const MeshData data = shell_around(
       {0, 0, -1}, {0, 0, 1},
       {{-0.2, -0.6, 0.3}, {0.8, 0.6, 0.4}, {0.3, 1.8, 0.4}, {-0.3, 0.6, 0}, {-0.4, -0.4, -0.5}});
-  Worker removal(data);
+  ShellWorker removal(data);
   CHECK(removal.attempt("edge_removal", 0, 1) == Verdict::no_improvement);
-  Worker worker(data);
+  ShellWorker worker(data);
   CHECK(worker.attempt("shell_transformation", 0, 1) == Verdict::accepted);
   CHECK(worker.mesh.tet_count() == 6);
   REQUIRE(worker.has_edge(0, 1));
@@ -120,9 +120,9 @@ TEST_CASE("a partial reduction keeps the edge with a smaller shell where removal
 
 TEST_CASE("an edge on the boundary is refused as constrained") {
   for (const std::string& name : kBoth) {
-    Worker open(shell_mesh({.degree = 5, .height = 2, .open = true}));
+    ShellWorker open(shell_mesh({.degree = 5, .height = 2, .open = true}));
     CHECK(open.attempt(name, 0, 1) == Verdict::constrained);
-    Worker closed(shell_mesh({.degree = 3, .height = std::numbers::sqrt2}));
+    ShellWorker closed(shell_mesh({.degree = 3, .height = std::numbers::sqrt2}));
     CHECK(closed.attempt(name, 0, 2) == Verdict::constrained);
     CHECK(closed.attempt(name, 2, 3) == Verdict::constrained);
   }
@@ -137,17 +137,17 @@ TEST_CASE("an edge that is constrained, lies on a constrained face or between la
   MeshData regions = free;
   regions.tets[1].label = 1;
   for (const std::string& name : kBoth) {
-    CHECK(Worker(free).attempt(name, 0, 1) == Verdict::accepted);
-    CHECK(Worker(edge).attempt(name, 0, 1) == Verdict::constrained);
-    CHECK(Worker(face).attempt(name, 0, 1) == Verdict::constrained);
-    CHECK(Worker(regions).attempt(name, 0, 1) == Verdict::constrained);
+    CHECK(ShellWorker(free).attempt(name, 0, 1) == Verdict::accepted);
+    CHECK(ShellWorker(edge).attempt(name, 0, 1) == Verdict::constrained);
+    CHECK(ShellWorker(face).attempt(name, 0, 1) == Verdict::constrained);
+    CHECK(ShellWorker(regions).attempt(name, 0, 1) == Verdict::constrained);
   }
 }
 
 TEST_CASE("a ring that is too large to be searched is refused") {
   for (const std::string& name : kBoth) {
     for (const unsigned m : {17u, 40u}) {
-      Worker worker(shell_mesh({.degree = m, .height = 3}));
+      ShellWorker worker(shell_mesh({.degree = m, .height = 3}));
       CHECK(worker.attempt(name, 0, 1) == Verdict::not_applicable);
     }
   }
@@ -155,7 +155,7 @@ TEST_CASE("a ring that is too large to be searched is refused") {
 
 TEST_CASE("a flat tet and an inverted one are removed through an edge of theirs") {
   for (const double lift : {0.0, -0.1}) {
-    Worker worker(middle_tet(lift));
+    ShellWorker worker(middle_tet(lift));
     REQUIRE(worker.qualities().front() <= 0);
     bool accepted = false;
     for (const auto& [a, b] : std::vector<std::array<std::uint32_t, 2>>{{0, 2}, {1, 3}}) {

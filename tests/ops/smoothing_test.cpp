@@ -18,7 +18,7 @@ using namespace tetmend::test;
 namespace {
 
 /// Eight tets around vertex 0, which lies at `centre`, in an octahedron of radius 1.
-MeshData octahedron(const Point& centre) {
+MeshData filled_octahedron(const Point& centre) {
   MeshData data;
   data.points = {Point::Zero(), {1, 0, 0}, {-1, 0, 0}, {0, 1, 0},
                  {0, -1, 0},    {0, 0, 1}, {0, 0, -1}};
@@ -34,7 +34,7 @@ MeshData octahedron(const Point& centre) {
   return data;
 }
 
-struct Worker : LoneWorker {
+struct SmoothingWorker : LoneWorker {
   using LoneWorker::LoneWorker;
   Verdict attempt(std::uint32_t v, const ParameterSettings& settings = {}) {
     return LoneWorker::attempt("smoothing", Target::of(VertexHandle(v)), settings);
@@ -45,7 +45,7 @@ struct Worker : LoneWorker {
 }  // namespace
 
 TEST_CASE("a vertex displaced in an octahedron goes back to the centre") {
-  Worker worker(octahedron({0.2, 0.1, -0.3}));
+  SmoothingWorker worker(filled_octahedron({0.2, 0.1, -0.3}));
   CHECK(worker.attempt(0) == Verdict::accepted);
   CHECK(worker.centre().norm() < 1e-12);
   CHECK(worker.worst() == doctest::Approx(2 * 0.8164966));
@@ -53,7 +53,7 @@ TEST_CASE("a vertex displaced in an octahedron goes back to the centre") {
 }
 
 TEST_CASE("without the mean of the neighbours, the ascent alone makes the ball good") {
-  Worker worker(octahedron({0.3, 0.2, -0.35}));
+  SmoothingWorker worker(filled_octahedron({0.3, 0.2, -0.35}));
   REQUIRE(worker.worst() < 0.5f);
   CHECK(worker.attempt(0, {{"laplacian", 0}}) == Verdict::accepted);
   CHECK(worker.worst() >= 0.5f);
@@ -61,54 +61,54 @@ TEST_CASE("without the mean of the neighbours, the ascent alone makes the ball g
 }
 
 TEST_CASE("without the ascent, the mean of the neighbours is taken only where it helps") {
-  Worker worker(octahedron({0.2, 0.1, -0.3}));
+  SmoothingWorker worker(filled_octahedron({0.2, 0.1, -0.3}));
   CHECK(worker.attempt(0, {{"optimise", 0}}) == Verdict::accepted);
-  Worker off(octahedron({0.2, 0.1, -0.3}));
+  SmoothingWorker off(filled_octahedron({0.2, 0.1, -0.3}));
   CHECK(off.attempt(0, {{"optimise", 0}, {"laplacian", 0}}) == Verdict::no_improvement);
-  Worker best(octahedron({0, 0, 0}));
+  SmoothingWorker best(filled_octahedron({0, 0, 0}));
   CHECK(best.attempt(0, {{"optimise", 0}}) == Verdict::no_improvement);
 }
 
 TEST_CASE("a vertex outside its ball comes back and its inverted tets turn over") {
-  Worker worker(octahedron({0.6, 0.5, 0.4}));
+  SmoothingWorker worker(filled_octahedron({0.6, 0.5, 0.4}));
   REQUIRE(count_not_positive(worker.mesh) > 0);
   CHECK(worker.attempt(0) == Verdict::accepted);
   CHECK(count_not_positive(worker.mesh) == 0);
   CHECK(worker.worst() > 0.5f);
-  Worker climbing(octahedron({0.6, 0.5, 0.4}));
+  SmoothingWorker climbing(filled_octahedron({0.6, 0.5, 0.4}));
   CHECK(climbing.attempt(0, {{"laplacian", 0}}) == Verdict::accepted);
   CHECK(climbing.worst() > 0);
 }
 
 TEST_CASE("a flat tet in the ball becomes positive") {
-  Worker worker(octahedron(Point(1, 1, 1) / 3));
+  SmoothingWorker worker(filled_octahedron(Point(1, 1, 1) / 3));
   REQUIRE(worker.worst() < 1e-9f);
   CHECK(worker.attempt(0) == Verdict::accepted);
   CHECK(count_not_positive(worker.mesh) == 0);
 }
 
 TEST_CASE("vertices on the boundary, on a constraint or required by the file are refused") {
-  Worker worker(octahedron({0.2, 0.1, -0.3}));
+  SmoothingWorker worker(filled_octahedron({0.2, 0.1, -0.3}));
   for (std::uint32_t v = 1; v <= 6; ++v) CHECK(worker.attempt(v) == Verdict::constrained);
-  MeshData face = octahedron({0.2, 0.1, -0.3});
+  MeshData face = filled_octahedron({0.2, 0.1, -0.3});
   face.triangles.push_back({{0, 1, 3}, 1});
-  MeshData edge = octahedron({0.2, 0.1, -0.3});
+  MeshData edge = filled_octahedron({0.2, 0.1, -0.3});
   edge.edges.push_back({{0, 1}, 1});
-  MeshData required = octahedron({0.2, 0.1, -0.3});
+  MeshData required = filled_octahedron({0.2, 0.1, -0.3});
   required.required_vertices.push_back(0);
   for (const MeshData& data : {face, edge, required}) {
-    CHECK(Worker(data).attempt(0) == Verdict::constrained);
+    CHECK(SmoothingWorker(data).attempt(0) == Verdict::constrained);
   }
 }
 
 TEST_CASE("a vertex of no tet is not applicable") {
-  MeshData data = octahedron({0.2, 0.1, -0.3});
+  MeshData data = filled_octahedron({0.2, 0.1, -0.3});
   data.points.emplace_back(5, 5, 5);
-  CHECK(Worker(data).attempt(7) == Verdict::not_applicable);
+  CHECK(SmoothingWorker(data).attempt(7) == Verdict::not_applicable);
 }
 
 TEST_CASE("smoothing moves one vertex and changes nothing else") {
-  Worker worker(delaunay_ball(100, 3));
+  SmoothingWorker worker(delaunay_ball(100, 3));
   unsigned accepted = 0;
   for (const VertexHandle v : live_vertices(worker.mesh)) {
     const TetMesh before = worker.mesh;
@@ -127,7 +127,7 @@ TEST_CASE("smoothing moves one vertex and changes nothing else") {
 }
 
 TEST_CASE("the ball of a vertex is loaded triangle by triangle, positive from inside") {
-  Worker worker(octahedron({0.1, 0.1, 0.1}));
+  SmoothingWorker worker(filled_octahedron({0.1, 0.1, 0.1}));
   BallOptimiser ball;
   const auto faces = link(worker.mesh, VertexHandle(0));
   load_ball(worker.mesh, faces, ball);

@@ -34,8 +34,6 @@ Verdict remove(LoneWorker& worker, std::uint32_t v, const ParameterSettings& set
   return worker.attempt("vertex_removal", Target::of(VertexHandle(v)), settings);
 }
 
-const std::set<Corners> kAround24 = {{0, 2, 3, 4}, {0, 2, 4, 5}, {1, 2, 3, 4}, {1, 2, 4, 5}};
-
 }  // namespace
 
 TEST_CASE("a vertex near a face of its ball is removed, and the ball filled in the best way") {

@@ -20,8 +20,10 @@
 #include "pieces/folder_run.h"
 #include "pieces/improve.h"
 #include "pieces/out_of_core.h"
+#include "tests/kernel/formats/fixtures.h"
 #include "tests/pieces/meshes.h"
 #include "tests/pieces/played_ranks.h"
+#include "tests/support/errors.h"
 #include "tests/support/overlapping_mesh.h"
 
 using namespace tetmend;
@@ -33,18 +35,7 @@ using pieces::Ranks;
 
 namespace {
 
-constexpr std::size_t kPieces = 3;
-
-std::string bytes_of(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
-Division in_pieces() {
-  Division division;
-  division.pieces = kPieces;
-  return division;
-}
+constexpr std::size_t kCarriedPieces = 3;
 
 /// Arrays of points and tets, groups, and parts that are finer than labels.
 MeshData lattice_with_data() {
@@ -64,14 +55,14 @@ MeshData lattice_with_data() {
 }
 
 /// A file, and what a run in pieces with all of it in memory makes of it.
-struct Files {
-  Files(const MeshData& data, const std::string& ending, const Options& options)
+struct CarriedFiles {
+  CarriedFiles(const MeshData& data, const std::string& ending, const Options& options)
       : in(folder.path() / ("in" + ending)), out(folder.path() / ("out" + ending)) {
     save(in, MeshAccess::make(data));
     Mesh mesh = load(in);
-    result = pieces::improve(mesh, options, in_pieces());
+    result = pieces::improve(mesh, options, in_pieces(kCarriedPieces));
     save(out, mesh);
-    expected = bytes_of(out);
+    expected = read_text(out);
     std::filesystem::remove(out);
   }
   OutOfCore all() const {
@@ -87,9 +78,9 @@ struct Files {
   std::string expected;
 };
 
-void improve_by_tasks(const Files& files, const Options& options) {
+void improve_by_tasks(const CarriedFiles& files, const Options& options) {
   const std::filesystem::path work = files.folder.path() / "work";
-  FolderRun::split(files.all(), work, options, in_pieces());
+  FolderRun::split(files.all(), work, options, in_pieces(kCarriedPieces));
   for (FolderRun run(work); !run.is_finished(); run = FolderRun(work)) {
     run.improve(run.round().open, {});
     FolderRun(work).join({});
@@ -105,31 +96,22 @@ bool is_told_by_rows(const std::filesystem::path& file) {
 
 /// By ranks, and by tasks over files, the bytes are the same.
 /// @param see  looks at the result on each rank
-void check_all_ways(const Files& files, const Options& options,
+void check_all_ways(const CarriedFiles& files, const Options& options,
                     std::initializer_list<std::size_t> counts,
                     const std::function<void(const Result&, Ranks&)>& see = {}) {
   for (const std::size_t count : counts) {
     CAPTURE(count);
     std::filesystem::remove(files.out);
     on_ranks(count, [&](Ranks& ranks) {
-      Division division = in_pieces();
+      Division division = in_pieces(kCarriedPieces);
       const Result result = pieces::improve_files(files.all(), options, division, ranks);
       if (see) see(result, ranks);
     });
-    CHECK(bytes_of(files.out) == files.expected);
+    CHECK(read_text(files.out) == files.expected);
   }
   std::filesystem::remove(files.out);
   improve_by_tasks(files, options);
-  CHECK(bytes_of(files.out) == files.expected);
-}
-
-std::string message_of(const std::function<void()>& work) {
-  try {
-    work();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return {};
+  CHECK(read_text(files.out) == files.expected);
 }
 
 }  // namespace
@@ -138,7 +120,7 @@ TEST_CASE("arrays, groups and parts are carried by ranks and by tasks as by one 
   for (const char* ending : {".vtu", ".msh"}) {
     CAPTURE(ending);
     const Options options = {.conserve = {}};
-    const Files files(lattice_with_data(), ending, options);
+    const CarriedFiles files(lattice_with_data(), ending, options);
     CHECK(files.result.carried.size() >= 2);
     check_all_ways(files, options, {1, 3}, [&](const Result& result, Ranks& ranks) {
       CHECK(result.carried.size() == (ranks.is_first() ? files.result.carried.size() : 0));
@@ -160,7 +142,7 @@ TEST_CASE("the number of a tet that is gone is given to no other tet, in pieces,
   };
   for (const char* ending : {".bdf", ".k"}) {
     CAPTURE(ending);
-    const Files files(lattice(5), ending, {});
+    const CarriedFiles files(lattice(5), ending, {});
     check_all_ways(files, {}, {2});
     const auto before = tets_of(files.in);
     std::size_t new_ones = 0;
@@ -206,7 +188,7 @@ TEST_CASE("arrays of a .vtu file are carried where no rank has all of it, as by 
     CAPTURE(is_conserved);
     Options options;
     if (is_conserved) options.conserve = {"density"};
-    const Files files(data, ".vtu", options);
+    const CarriedFiles files(data, ".vtu", options);
     CHECK(is_told_by_rows(files.in));
     check_all_ways(files, options, {1, 2, 5}, [&](const Result& result, Ranks& ranks) {
       if (!ranks.is_first()) return;
@@ -233,7 +215,7 @@ TEST_CASE("where solids overlap, values stay apart in pieces, too, by ranks and 
     for (const bool conserves : {false, true}) {
       Options options = {.conserve = {}};
       if (conserves) options.conserve = {"young"};
-      const Files files(data, ".vtu", options);
+      const CarriedFiles files(data, ".vtu", options);
       REQUIRE(is_told_by_rows(files.in));
       check_all_ways(files, options, {1, 3});
       CHECK(files.result.touched_tets > 500);
@@ -265,7 +247,7 @@ TEST_CASE("marks and normals of a .meshb file are carried where no rank has all 
       data.point_data.erase(data.point_data.begin());
       std::erase_if(data.groups, [](const Group& g) { return g.name == "NormalAtVertices"; });
     }
-    const Files files(data, ".meshb", {});
+    const CarriedFiles files(data, ".meshb", {});
     const MeshData there = read_mesh(files.in);
     REQUIRE(there.groups.size() == (has_normals ? 6 : 5));
     CHECK(is_told_by_rows(files.in));
@@ -274,7 +256,7 @@ TEST_CASE("marks and normals of a .meshb file are carried where no rank has all 
 }
 
 TEST_CASE("what a file holds that the output cannot have is told, once") {
-  const Files files(lattice_with_data(), ".msh", {});
+  const CarriedFiles files(lattice_with_data(), ".msh", {});
   OutOfCore plain = files.all();
   plain.output = files.folder.path() / "out.mesh";
   std::atomic<int> told = 0;
@@ -283,7 +265,7 @@ TEST_CASE("what a file holds that the output cannot have is told, once") {
     CHECK(!lost.empty());
   };
   on_ranks(2, [&](Ranks& ranks) {
-    Division division = in_pieces();
+    Division division = in_pieces(kCarriedPieces);
     pieces::improve_files(plain, {}, division, ranks);
   });
   CHECK(told == 1);
@@ -291,7 +273,7 @@ TEST_CASE("what a file holds that the output cannot have is told, once") {
   std::filesystem::remove(plain.output);
   CHECK(message_of([&] {
           pieces::OneRank alone;
-          Division division = in_pieces();
+          Division division = in_pieces(kCarriedPieces);
           pieces::improve_files(plain, {}, division, alone);
         }) == "too much");
   CHECK(!std::filesystem::exists(plain.output));
@@ -302,9 +284,9 @@ TEST_CASE("regions that are protected stay, whoever has them") {
       {.protect = {"label:1"}},
       {.protect = {"box:-1,-1,-1,3.5,8,8"}, .only = {"label:2", "box:0,0,0,8,8,5"}}};
   for (const Options& options : all) {
-    const Files files(lattice(8), ".meshb", options);
+    const CarriedFiles files(lattice(8), ".meshb", options);
     CHECK(files.result.protected_tets > 0);
-    CHECK(files.expected != Files(lattice(8), ".meshb", {}).expected);
+    CHECK(files.expected != CarriedFiles(lattice(8), ".meshb", {}).expected);
     check_all_ways(files, options, {1, 3}, [&](const Result& result, Ranks&) {
       CHECK(result.protected_tets == files.result.protected_tets);
       CHECK(result.protected_bad_tets == files.result.protected_bad_tets);
@@ -313,11 +295,11 @@ TEST_CASE("regions that are protected stay, whoever has them") {
 }
 
 TEST_CASE("a region without a tet is an error, also where each rank has some tets of others") {
-  const Files files(lattice(6), ".meshb", {});
+  const CarriedFiles files(lattice(6), ".meshb", {});
   const auto message = [&](const Options& options) {
     return message_of([&] {
       on_ranks(2, [&](Ranks& ranks) {
-        Division division = in_pieces();
+        Division division = in_pieces(kCarriedPieces);
         pieces::improve_files(files.all(), options, division, ranks);
       });
     });
@@ -395,7 +377,7 @@ MeshData lattice_with_entities(bool is_finer) {
 TEST_CASE("entities of a .msh file are carried where no rank has all of it, as by one process") {
   for (const bool is_finer : {false, true}) {
     CAPTURE(is_finer);
-    const Files files(lattice_with_entities(is_finer), ".msh", {});
+    const CarriedFiles files(lattice_with_entities(is_finer), ".msh", {});
     const MeshData there = read_mesh(files.in);
     REQUIRE(there.entities.size() == 10);
     REQUIRE(there.other_elements.size() == 1);

@@ -15,14 +15,14 @@ using namespace tetmend::test;
 
 namespace {
 
-constexpr std::size_t kPieces = 4;
+constexpr std::size_t kDistributedPieces = 4;
 
 /// From one number for the whole to that where a rank begins: unequal shares, the first has least.
 std::size_t begin_of(std::size_t count, std::size_t rank, std::size_t ranks) {
   return count * rank * rank / (ranks * ranks);
 }
 
-RankArrays share_of(const MeshData& data, const Ranks& ranks) {
+RankArrays arrays_of_rank(const MeshData& data, const Ranks& ranks) {
   RankArrays mine;
   const auto for_share = [&](std::size_t count, const auto& take) {
     const std::size_t end = begin_of(count, ranks.number() + 1, ranks.count());
@@ -49,7 +49,7 @@ RankArrays share_of(const MeshData& data, const Ranks& ranks) {
 }
 
 /// Of all ranks, one after another.
-MeshArrays joined(const std::vector<RankArrays>& all) {
+MeshArrays joined_arrays(const std::vector<RankArrays>& all) {
   MeshArrays mesh;
   const auto append = [](const auto& from, auto& to) {
     for (const auto& each : from) {
@@ -76,19 +76,19 @@ TEST_CASE("arrays on ranks become those of a run in pieces, wherever they lay") 
   const MeshData data = lattice(8);
   Mesh expected = MeshAccess::make(data);
   pieces::Division division;
-  division.pieces = kPieces;
+  division.pieces = kDistributedPieces;
   pieces::improve(expected, {}, division);
   for (const std::size_t count : {1, 2, 5}) {
     CAPTURE(count);
     std::vector<RankArrays> made(count);
     on_ranks(count, [&](Ranks& ranks) {
-      RankArrays mine = share_of(data, ranks);
-      const Result result = improve(mine, ranks, {}, {.count = kPieces});
+      RankArrays mine = arrays_of_rank(data, ranks);
+      const Result result = improve(mine, ranks, {}, {.count = kDistributedPieces});
       CHECK(result.after.n_bad < result.before.n_bad / 10);
       CHECK(result.worse().empty());
       made[ranks.number()] = std::move(mine);
     });
-    const MeshArrays now = joined(made);
+    const MeshArrays now = joined_arrays(made);
     CHECK(std::equal(now.points.begin(), now.points.end(), expected.points().begin(),
                      expected.points().end()));
     CHECK(std::equal(now.tets.begin(), now.tets.end(), expected.tets().begin(),
@@ -107,10 +107,10 @@ TEST_CASE("ranks without tets, without points, and more ranks than pieces do not
   const MeshData data = lattice(8);
   Mesh expected = MeshAccess::make(data);
   pieces::Division division;
-  division.pieces = kPieces;
+  division.pieces = kDistributedPieces;
   pieces::improve(expected, {}, division);
   OneRank alone;
-  const RankArrays all = share_of(data, alone);
+  const RankArrays all = arrays_of_rank(data, alone);
   for (const std::size_t owner : {0, 2, 7}) {  // of tets; the points are elsewhere
     CAPTURE(owner);
     std::vector<RankArrays> made(8);
@@ -121,10 +121,10 @@ TEST_CASE("ranks without tets, without points, and more ranks than pieces do not
         mine.points.clear();
       }
       if (ranks.number() == 5) mine.points = all.points;
-      improve(mine, ranks, {}, {.count = kPieces});
+      improve(mine, ranks, {}, {.count = kDistributedPieces});
       made[ranks.number()] = std::move(mine);
     });
-    const MeshArrays now = joined(made);
+    const MeshArrays now = joined_arrays(made);
     CHECK(std::equal(now.points.begin(), now.points.end(), expected.points().begin(),
                      expected.points().end()));
     CHECK(std::equal(now.tets.begin(), now.tets.end(), expected.tets().begin(),
@@ -136,7 +136,7 @@ TEST_CASE("progress on one rank stops all, with sound arrays") {
   const MeshData data = lattice(8);
   std::vector<RankArrays> made(3);
   on_ranks(3, [&](Ranks& ranks) {
-    RankArrays mine = share_of(data, ranks);
+    RankArrays mine = arrays_of_rank(data, ranks);
     std::size_t told = 0;
     Options options;
     if (ranks.number() == 2) {
@@ -144,17 +144,17 @@ TEST_CASE("progress on one rank stops all, with sound arrays") {
         return p.stage != Stage::improving || ++told < 5;
       };
     }
-    CHECK(improve(mine, ranks, options, {.count = kPieces}).ending == Ending::cancelled);
+    CHECK(improve(mine, ranks, options, {.count = kDistributedPieces}).ending == Ending::cancelled);
     made[ranks.number()] = std::move(mine);
   });
-  const Mesh mesh(joined(made));  // throws for arrays that contradict themselves
+  const Mesh mesh(joined_arrays(made));  // throws for arrays that contradict themselves
   CHECK(mesh.tet_count() > data.tets.size() / 2);
 }
 
 TEST_CASE("arrays that contradict themselves, and options that pieces cannot have, are errors") {
   const MeshData data = lattice(4);
   OneRank alone;
-  RankArrays mine = share_of(data, alone);
+  RankArrays mine = arrays_of_rank(data, alone);
   const RankArrays before = mine;
   CHECK_THROWS_AS(improve(mine, alone, {.keep_size = true}, {.count = 2}), OptionError);
   CHECK_THROWS_AS(improve(mine, alone, {}, {.count = 1}), OptionError);

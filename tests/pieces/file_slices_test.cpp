@@ -19,6 +19,7 @@
 #include "pieces/mesh_files.h"
 #include "pieces/out_of_core.h"
 #include "pieces/slices.h"
+#include "tests/kernel/formats/fixtures.h"
 #include "tests/pieces/meshes.h"
 #include "tests/pieces/played_ranks.h"
 
@@ -27,11 +28,6 @@ using namespace tetmend::test;
 using pieces::Ranks;
 
 namespace {
-
-std::string content_of(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
 
 void put_content(const std::filesystem::path& file, const std::string& bytes) {
   std::ofstream(file, std::ios::binary) << bytes;
@@ -117,7 +113,7 @@ void split_into_parts(MeshData& data) {
 }
 
 /// What the reader that has all of the file says of it.
-std::string complaint(const std::filesystem::path& file) {
+std::string reader_complaint(const std::filesystem::path& file) {
   try {
     read_mesh(file);
   } catch (const Error& error) {
@@ -138,7 +134,7 @@ std::string complaint_of_pieces(const std::filesystem::path& file) {
 
 /// Cuts the file short and changes bytes of it, at many places.
 void check_damage(const std::filesystem::path& good, const std::filesystem::path& bad) {
-  const std::string bytes = content_of(good);
+  const std::string bytes = read_text(good);
   std::size_t complaints = 0;
   for (std::size_t i = 0; i < 60; ++i) {
     const std::size_t at = bytes.size() * i / 60;
@@ -148,7 +144,7 @@ void check_damage(const std::filesystem::path& good, const std::filesystem::path
     for (const std::string& made : {cut, changed}) {
       put_content(bad, made);
       CAPTURE(at);
-      const std::string said = complaint(bad);
+      const std::string said = reader_complaint(bad);
       complaints += said == "none" ? 0 : 1;
       REQUIRE(complaint_of_pieces(bad) == said);
     }
@@ -166,7 +162,7 @@ void check_improved(const std::filesystem::path& in, const std::string& ending) 
   Mesh mesh = load(in);
   pieces::improve(mesh, {}, division);
   save(out, mesh);
-  const std::string expected = content_of(out);
+  const std::string expected = read_text(out);
   for (const std::size_t count : {1U, 2U, 3U}) {
     CAPTURE(count);
     std::filesystem::remove(out);
@@ -178,7 +174,7 @@ void check_improved(const std::filesystem::path& in, const std::string& ending) 
       pieces::Division four = division;
       pieces::improve_files(files, {}, four, ranks);
     });
-    CHECK(content_of(out) == expected);
+    CHECK(read_text(out) == expected);
   }
 }
 
@@ -385,7 +381,7 @@ TEST_CASE(
   };
   write(msh, data, "4.1 ASCII");
   CHECK(is_sliced(msh));
-  std::string text = content_of(msh);
+  std::string text = read_text(msh);
   text.insert(text.find("$EndNodes"), "\n");
   put_content(msh, text);
   CHECK(is_sliced(msh));  // a blank line behind all rows

@@ -16,6 +16,7 @@
 #include "face/mesh_access.h"
 #include "pieces/folder_run.h"
 #include "pieces/out_of_core.h"
+#include "tests/kernel/formats/fixtures.h"
 #include "tests/pieces/meshes.h"
 
 using namespace tetmend;
@@ -24,7 +25,7 @@ using pieces::Division;
 
 namespace {
 
-bool equal(const MeshData& a, const MeshData& b) {
+bool equal_meshes(const MeshData& a, const MeshData& b) {
   return a.points == b.points && a.tets == b.tets && a.triangles == b.triangles &&
          a.edges == b.edges && a.required_vertices == b.required_vertices &&
          a.point_labels == b.point_labels;
@@ -38,11 +39,6 @@ MeshData improved(const MeshData& data, Options options, std::size_t count,
   Result made = pieces::improve(mesh, options, division);
   if (result != nullptr) *result = std::move(made);
   return MeshAccess::take(mesh);
-}
-
-std::string bytes_of(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
 }
 
 /// From file to file; returns the message of what went wrong.
@@ -64,7 +60,7 @@ TEST_CASE("one piece is the run of improve()") {
   const MeshData data = lattice(6);
   Mesh mesh = MeshAccess::make(data);
   improve(mesh);
-  CHECK(equal(MeshAccess::data(mesh), improved(data, {}, 1)));
+  CHECK(equal_meshes(MeshAccess::data(mesh), improved(data, {}, 1)));
 }
 
 TEST_CASE("in pieces all promises hold, and maps tell where everything is") {
@@ -173,7 +169,7 @@ TEST_CASE("a mesh in pieces is adapted to lengths, as far as one that is whole")
     if (options.surface.empty())
       CHECK(result.surface_fingerprint == result.surface_fingerprint_before);
     options.threads = 2;
-    CHECK(equal(improved(data, options, 4), made));
+    CHECK(equal_meshes(improved(data, options, 4), made));
   }
 }
 
@@ -194,14 +190,14 @@ TEST_CASE("a mesh of tiny lengths is adapted in pieces, where the lengths are of
 TEST_CASE("threads, folders and files do not show in the result") {
   const MeshData data = lattice(10);
   const MeshData expected = improved(data, {}, 5);
-  CHECK(equal(improved(data, {.threads = 2}, 5), expected));
+  CHECK(equal_meshes(improved(data, {.threads = 2}, 5), expected));
 
   const Folder folder;
   Mesh mesh = MeshAccess::make(data);
   Division division;
   division.pieces = 5;
   pieces::improve(mesh, {}, division, folder.path());
-  CHECK(equal(MeshAccess::data(mesh), expected));
+  CHECK(equal_meshes(MeshAccess::data(mesh), expected));
 
   for (const char* ending : {"meshb", "mesh"}) {
     CAPTURE(ending);
@@ -212,9 +208,9 @@ TEST_CASE("threads, folders and files do not show in the result") {
     const Folder scratch;
     CHECK(improve_files({.input = in, .output = out, .scratch = scratch.path()}, 5) == "");
     save(in_core, mesh);
-    CHECK(bytes_of(out) == bytes_of(in_core));
+    CHECK(read_text(out) == read_text(in_core));
   }
-  CHECK(!equal(improved(data, {}, 4), expected));
+  CHECK(!equal_meshes(improved(data, {}, 4), expected));
 }
 
 TEST_CASE("a mesh of few tets has fewer pieces than were asked for, and a note") {
@@ -228,7 +224,7 @@ TEST_CASE("a mesh of few tets has fewer pieces than were asked for, and a note")
   REQUIRE(!result.notes.empty());
   CHECK(result.notes[0] ==
         "6 pieces, not 24: more would have less than 300 of the 2,058 tets each");
-  CHECK(equal(made, improved(data, {}, 6, &result)));
+  CHECK(equal_meshes(made, improved(data, {}, 6, &result)));
   for (const std::string& note : result.notes) CHECK(note.find("not 24") == std::string::npos);
 }
 
@@ -276,7 +272,7 @@ TEST_CASE("pieces may be empty: nearly all of a mesh may lie in one place of its
     save(in, MeshAccess::make(data));
     CHECK(improve_files({.input = in, .output = out, .scratch = {}}, count) == "");
     save(in_core, MeshAccess::make(made));
-    CHECK(bytes_of(out) == bytes_of(in_core));
+    CHECK(read_text(out) == read_text(in_core));
   }
 }
 
@@ -310,7 +306,7 @@ TEST_CASE("memory decides on the number of pieces, and enough of it is one piece
   CHECK(improve_files(
             {.input = in, .output = out, .scratch = scratch.path(), .memory = 1'000'000'000}, 0) ==
         "");
-  CHECK(equal(MeshAccess::data(load(out)), improved(data, {}, 1)));
+  CHECK(equal_meshes(MeshAccess::data(load(out)), improved(data, {}, 1)));
 }
 
 TEST_CASE("less memory than the program takes is refused before the mesh is read") {
@@ -469,7 +465,7 @@ TEST_CASE("what pieces cannot have is an error, and the mesh stays") {
   Division division;
   division.pieces = 2;
   CHECK_THROWS_AS(pieces::improve(mesh, {.script = "smooth{} error('no')"}, division), Error);
-  CHECK(equal(MeshAccess::data(mesh), data));
+  CHECK(equal_meshes(MeshAccess::data(mesh), data));
   const Folder folder;
   const auto in = folder.path() / "in.meshb";
   save(in, MeshAccess::make(data));

@@ -10,13 +10,11 @@
 #include "contract/zoo.h"
 #include "kernel/formats/mesh_io.h"
 #include "pieces/divided_mesh.h"
+#include "pieces/piece_run.h"
 #include "pieces/piece_task.h"
+#include "tests/support/assets.h"
 
 namespace tetmend::test {
-
-inline std::string asset(const std::string& name) {
-  return std::string(TETMEND_SOURCE_DIR) + "/assets/meshes/" + name;
-}
 
 /// n x n x n cubes of edge 1 in six tets each, in two regions; vertices inside are moved, so that
 /// some tets are bad. Names a triangle, an edge and two vertices.
@@ -34,6 +32,12 @@ inline MeshData lattice(std::uint32_t n) {
   data.edges.push_back({{inside, inside + inside}, 6});
   data.required_vertices = {inside, inside + n - 2};
   return data;
+}
+
+inline pieces::Division in_pieces(std::size_t count) {
+  pieces::Division division;
+  division.pieces = count;
+  return division;
 }
 
 /// Stores the pieces of a division again, without work.

@@ -17,6 +17,7 @@
 #include "pieces/folder_run.h"
 #include "pieces/improve.h"
 #include "pieces/out_of_core.h"
+#include "tests/kernel/formats/fixtures.h"
 #include "tests/pieces/meshes.h"
 #include "tests/pieces/played_ranks.h"
 #include "tests/support/mixed_mesh.h"
@@ -31,13 +32,7 @@ using pieces::OutOfCore;
 
 namespace {
 
-constexpr std::size_t kPieces = 3;
-
-Division in_pieces(std::size_t count = kPieces) {
-  Division division;
-  division.pieces = count;
-  return division;
-}
+constexpr std::size_t kMovingPieces = 3;
 
 /// Many slivers at its surface, labels of points and triangles, and a group that keeps a point.
 MeshData ball() {
@@ -56,21 +51,16 @@ Options options_of(const std::string& surface) {
   return {.surface = surface, .feature_angle = 60};
 }
 
-std::string bytes_of(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
 /// A mesh on disk, and what a run in memory makes of it.
-struct Files {
-  explicit Files(const MeshData& data, const std::string& ending = ".meshb")
+struct MovingFiles {
+  explicit MovingFiles(const MeshData& data, const std::string& ending = ".meshb")
       : in(folder.path() / ("in" + ending)), out(folder.path() / ("out" + ending)) {
     save(in, MeshAccess::make(data));
     Mesh mesh = load(in);
-    result = pieces::improve(mesh, options_of("5%"), in_pieces());
+    result = pieces::improve(mesh, options_of("5%"), in_pieces(kMovingPieces));
     const auto file = folder.path() / ("expected" + ending);
     save(file, mesh);
-    expected = bytes_of(file);
+    expected = read_text(file);
   }
   OutOfCore all() const {
     OutOfCore files;
@@ -122,7 +112,7 @@ TEST_CASE("one piece with a surface that may move is the run of improve()") {
 
 TEST_CASE("a surface that moves in pieces has the same bytes for threads, ranks, files and tasks") {
   const MeshData data = ball();
-  const Files files(data);
+  const MovingFiles files(data);
   REQUIRE(files.result.surface_change);
   CHECK(files.result.surface_change->touched > 20);
   CHECK(files.result.after.n_bad < files.result.before.n_bad);
@@ -131,27 +121,27 @@ TEST_CASE("a surface that moves in pieces has the same bytes for threads, ranks,
   Mesh mesh = load(files.in);
   Options threads = options_of("5%");
   threads.threads = 2;
-  pieces::improve(mesh, threads, in_pieces());
+  pieces::improve(mesh, threads, in_pieces(kMovingPieces));
   const auto by_threads = files.folder.path() / "threads.meshb";
   save(by_threads, mesh);
-  CHECK(bytes_of(by_threads) == files.expected);
+  CHECK(read_text(by_threads) == files.expected);
   for (const std::size_t ranks : {1, 2, 4}) {
     CAPTURE(ranks);
     on_ranks(ranks, [&](Ranks& rank) {
-      Division division = in_pieces();
+      Division division = in_pieces(kMovingPieces);
       pieces::improve_files(files.all(), options_of("5%"), division, rank);
     });
-    CHECK(bytes_of(files.out) == files.expected);
+    CHECK(read_text(files.out) == files.expected);
     std::filesystem::remove(files.out);
   }
   const auto work = files.folder.path() / "work";
-  FolderRun::split(files.all(), work, options_of("5%"), in_pieces());
+  FolderRun::split(files.all(), work, options_of("5%"), in_pieces(kMovingPieces));
   std::optional<Result> last;
   for (FolderRun run(work); !run.is_finished(); run = FolderRun(work)) {
     for (const std::size_t piece : run.round().pieces) FolderRun(work).improve({piece}, {});
     last = FolderRun(work).join({});
   }
-  CHECK(bytes_of(files.out) == files.expected);
+  CHECK(read_text(files.out) == files.expected);
   REQUIRE((last && last->surface_change));
   CHECK(last->surface_change->proven == files.result.surface_change->proven);
 }
@@ -167,21 +157,21 @@ TEST_CASE("a moving surface takes marks and arrays of a file along, whoever has 
     } else {
       data.groups.push_back({0, 0, "Corners", {}, {0, 1, 2}});
     }
-    const Files files(data, ending);
+    const MovingFiles files(data, ending);
     for (const std::size_t ranks : {1, 3}) {
       CAPTURE(ranks);
       on_ranks(ranks, [&](Ranks& rank) {
-        Division division = in_pieces();
+        Division division = in_pieces(kMovingPieces);
         pieces::improve_files(files.all(), options_of("5%"), division, rank);
       });
-      CHECK(bytes_of(files.out) == files.expected);
+      CHECK(read_text(files.out) == files.expected);
       std::filesystem::remove(files.out);
     }
   }
 }
 
 TEST_CASE("a run with a moving surface that was killed goes on from its checkpoint") {
-  const Files files(ball());
+  const MovingFiles files(ball());
   OutOfCore saved = files.all();
   saved.checkpoint = files.folder.path() / "checkpoint";
   int calls = 0;
@@ -189,18 +179,18 @@ TEST_CASE("a run with a moving surface that was killed goes on from its checkpoi
     if (++calls > 4) throw Error("crash");
   };
   pieces::OneRank alone;
-  Division division = in_pieces();
+  Division division = in_pieces(kMovingPieces);
   CHECK_THROWS_AS(pieces::improve_files(saved, options_of("5%"), division, alone), Error);
   CHECK(std::filesystem::exists(saved.checkpoint / "run"));
   saved.fault = {};
-  division = in_pieces();
+  division = in_pieces(kMovingPieces);
   pieces::improve_files(saved, options_of("5%"), division, alone);
-  CHECK(bytes_of(files.out) == files.expected);
+  CHECK(read_text(files.out) == files.expected);
   CHECK(!std::filesystem::exists(saved.checkpoint));
 }
 
 TEST_CASE("a surface that is farther away than was proven is noticed, and nothing is written") {
-  const Files files(ball());
+  const MovingFiles files(ball());
   const auto with_fault = [&](const std::function<void(pieces::Piece&)>& fault) -> std::string {
     int calls = 0;
     OutOfCore broken = files.all();
@@ -210,7 +200,7 @@ TEST_CASE("a surface that is farther away than was proven is noticed, and nothin
     Options options = options_of("5%");
     options.script = "begin_round()";
     pieces::OneRank alone;
-    Division division = in_pieces();
+    Division division = in_pieces(kMovingPieces);
     division.zone_rounds = 0;
     try {
       pieces::improve_files(broken, options, division, alone);
@@ -249,7 +239,7 @@ TEST_CASE("in pieces with a moving surface tets stay joined to other elements") 
     Options options = options_of("10%");
     options.goal = {.min_angle = 34, .max_angle = 142};
     Mesh mesh = MeshAccess::make(before);
-    const Result result = pieces::improve(mesh, options, in_pieces());
+    const Result result = pieces::improve(mesh, options, in_pieces(kMovingPieces));
     CHECK(result.surface_change->touched > 0);
     CHECK(count_lost_parts(before, result.vertex_map, MeshAccess::data(mesh)) == 0);
     CHECK(faces_on_bed(MeshAccess::data(mesh)).size() == faces_on_bed(before).size());
@@ -260,11 +250,11 @@ TEST_CASE("in pieces with a moving surface tets stay joined to other elements") 
     files.output = folder.path() / "out.vtu";
     save(files.input, MeshAccess::make(before));
     pieces::OneRank alone;
-    Division division = in_pieces();
+    Division division = in_pieces(kMovingPieces);
     pieces::improve_files(files, options, division, alone);
     Mesh again = load(files.input);
-    pieces::improve(again, options, in_pieces());
+    pieces::improve(again, options, in_pieces(kMovingPieces));
     save(folder.path() / "expected.vtu", again);
-    CHECK(bytes_of(files.output) == bytes_of(folder.path() / "expected.vtu"));
+    CHECK(read_text(files.output) == read_text(folder.path() / "expected.vtu"));
   }
 }

@@ -20,8 +20,10 @@
 #include "pieces/out_of_core.h"
 #include "pieces/partitioned_files.h"
 #include "pieces/pvtu.h"
+#include "tests/kernel/formats/fixtures.h"
 #include "tests/pieces/meshes.h"
 #include "tests/pieces/played_ranks.h"
+#include "tests/support/errors.h"
 
 using namespace tetmend;
 using namespace tetmend::test;
@@ -31,12 +33,7 @@ using pieces::Ranks;
 
 namespace {
 
-constexpr std::size_t kPieces = 4;
-
-std::string bytes_of(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
+constexpr std::size_t kPartitionPieces = 4;
 
 /// VTK has no required vertices.
 MeshData mesh_of_vtk() {
@@ -53,7 +50,7 @@ std::ptrdiff_t drafts_in(const std::filesystem::path& folder) {
 }
 
 void improve_to(const std::filesystem::path& in, const std::filesystem::path& out, Ranks& ranks,
-                std::size_t pieces = kPieces) {
+                std::size_t pieces = kPartitionPieces) {
   const PvtuFiles pvtu(ranks);
   const GmshParts gmsh(ranks);
   const pieces::SeveralArrayFiles parts({&pvtu, &gmsh});
@@ -73,23 +70,14 @@ void convert(const std::filesystem::path& in, const std::filesystem::path& out, 
   pieces::InputMesh mesh(in, ranks, &parts);
   pieces::MemoryShelf shelf;
   pieces::DividedMesh slices(shelf, ranks, mesh.vertices());
-  mesh.add_to(slices, kPieces);
+  mesh.add_to(slices, kPartitionPieces);
   pieces::write_pieces(out, slices, {.vertices = mesh.vertices(), .array_files = &parts});
 }
 
 std::map<std::string, std::string> bytes_of_all(const std::filesystem::path& file) {
-  std::map<std::string, std::string> all = {{"", bytes_of(file)}};
-  for (const auto& part : pieces::read_pvtu(file)) all[part.filename().string()] = bytes_of(part);
+  std::map<std::string, std::string> all = {{"", read_text(file)}};
+  for (const auto& part : pieces::read_pvtu(file)) all[part.filename().string()] = read_text(part);
   return all;
-}
-
-std::string message_of(const std::function<void()>& work) {
-  try {
-    work();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return {};
 }
 
 /// Names of the points as they were go, as in files of others.
@@ -115,14 +103,14 @@ TEST_CASE("a mesh in parts is written by all ranks, with the same bytes for any 
     const auto out = folder.path() / "out.pvtu";
     on_ranks(count, [&](Ranks& ranks) { improve_to(in, out, ranks); });
     const auto now = bytes_of_all(out);
-    CHECK(now.size() == kPieces + 1);
+    CHECK(now.size() == kPartitionPieces + 1);
     if (expected.empty()) expected = now;
     CHECK((now == expected));
     CHECK(drafts_in(folder.path()) == 0);
     // And it is read by any number of ranks as the mesh that it is.
     const auto again = folder.path() / "again.meshb";
     on_ranks(7 - count, [&](Ranks& ranks) { convert(out, again, ranks); });
-    CHECK(bytes_of(again) == bytes_of(whole));
+    CHECK(read_text(again) == read_text(whole));
   }
 }
 
@@ -138,15 +126,15 @@ TEST_CASE("parts of Gmsh are written and read by any number of ranks") {
     CAPTURE(count);
     on_ranks(count, [&](Ranks& ranks) { improve_to(in, parts, ranks); });
     std::vector<std::string> now;
-    for (std::size_t part = 1; part <= kPieces; ++part) {
-      now.push_back(bytes_of(folder.path() / fmt::format("out_{}.msh", part)));
+    for (std::size_t part = 1; part <= kPartitionPieces; ++part) {
+      now.push_back(read_text(folder.path() / fmt::format("out_{}.msh", part)));
       CHECK(!now.back().empty());
     }
     if (expected.empty()) expected = now;
     CHECK((now == expected));
     const auto again = folder.path() / "again.meshb";
     on_ranks(4 - count, [&](Ranks& ranks) { convert(parts, again, ranks); });
-    CHECK(bytes_of(again) == bytes_of(whole));
+    CHECK(read_text(again) == read_text(whole));
   }
   for (const char* part : {"out_5.msh", "out_6.msh", "out_8.msh"}) {
     std::ofstream(folder.path() / part) << "of an older mesh";
@@ -199,8 +187,8 @@ TEST_CASE("parts without numbers of their points are one mesh by their places") 
             (now.points[now.tets[t].vertices[i]] == expected.points[expected.tets[t].vertices[i]]));
       }
     }
-    if (first.empty()) first = bytes_of(again);
-    CHECK(bytes_of(again) == first);
+    if (first.empty()) first = read_text(again);
+    CHECK(read_text(again) == first);
   }
 }
 
@@ -241,7 +229,7 @@ void convert_with_arrays(const std::filesystem::path& in, const std::filesystem:
   pieces::DividedMesh slices(shelf, ranks, mesh.vertices());
   const bool holds_more = mesh.holds_more(out);
   CHECK(holds_more);
-  mesh.add_to(slices, kPieces);
+  mesh.add_to(slices, kPartitionPieces);
   pieces::write_pieces(
       out, slices,
       {.vertices = mesh.vertices(), .array_files = &pvtu, .parts = parts, .source = in});
@@ -259,15 +247,15 @@ TEST_CASE(
   std::string whole;
   for (const std::size_t count : {1, 2, 5}) {
     CAPTURE(count);
-    on_ranks(count, [&](Ranks& ranks) { convert_with_arrays(in, parts, ranks, kPieces); });
+    on_ranks(count, [&](Ranks& ranks) { convert_with_arrays(in, parts, ranks, kPartitionPieces); });
     const auto now = bytes_of_all(parts);
-    CHECK(now.size() == kPieces + 1);
+    CHECK(now.size() == kPartitionPieces + 1);
     if (expected.empty()) expected = now;
     CHECK((now == expected));
     const auto again = folder.path() / "again.vtu";
     on_ranks(6 - count, [&](Ranks& ranks) { convert_with_arrays(parts, again, ranks); });
-    if (whole.empty()) whole = bytes_of(again);
-    CHECK(bytes_of(again) == whole);
+    if (whole.empty()) whole = read_text(again);
+    CHECK(read_text(again) == whole);
   }
   const MeshData before = read_mesh(in);
   const MeshData after = read_mesh(folder.path() / "again.vtu");
@@ -300,7 +288,7 @@ TEST_CASE("whole numbers of tets stay data in parts, where the mesh has no label
   const auto again = folder.path() / "again.vtu";
   save(in, MeshAccess::make(data));
   on_ranks(2, [&](Ranks& ranks) {
-    convert_with_arrays(in, parts, ranks, kPieces);
+    convert_with_arrays(in, parts, ranks, kPartitionPieces);
     convert_with_arrays(parts, again, ranks);
   });
   const MeshData after = read_mesh(again);
@@ -316,7 +304,7 @@ TEST_CASE("a run from parts to parts carries their arrays as a run from a file o
   const auto same = folder.path() / "same.vtu";  // in the order of the parts
   save(in, MeshAccess::make(mesh_with_arrays()));
   on_ranks(2, [&](Ranks& ranks) {
-    convert_with_arrays(in, parts, ranks, kPieces);
+    convert_with_arrays(in, parts, ranks, kPartitionPieces);
     convert_with_arrays(parts, same, ranks);
   });
   const auto improve = [&](const std::filesystem::path& from, const std::filesystem::path& to,
@@ -328,7 +316,7 @@ TEST_CASE("a run from parts to parts carries their arrays as a run from a file o
     files.array_files = &pvtu;
     files.tell_lost = [](const std::vector<std::string>& lost) { CHECK(lost.empty()); };
     pieces::Division division;
-    division.pieces = kPieces;
+    division.pieces = kPartitionPieces;
     const Result result = pieces::improve_files(files, {.conserve = {"density"}}, division, ranks);
     CHECK(result.carried.size() == (ranks.is_first() ? 4 : 0));
   };
@@ -342,9 +330,9 @@ TEST_CASE("a run from parts to parts carries their arrays as a run from a file o
       improve(parts, whole, ranks);
       improve(parts, out, ranks);
     });
-    CHECK(bytes_of(whole) == bytes_of(expected));
+    CHECK(read_text(whole) == read_text(expected));
     on_ranks(2, [&](Ranks& ranks) { convert_with_arrays(out, whole, ranks); });
-    CHECK(bytes_of(whole) == bytes_of(expected));
+    CHECK(read_text(whole) == read_text(expected));
   }
 }
 
@@ -353,7 +341,7 @@ TEST_CASE("where parts have several values for a point, that of the first part c
   const auto in = folder.path() / "in.vtu";
   const auto parts = folder.path() / "in.pvtu";
   save(in, MeshAccess::make(mesh_with_arrays()));
-  on_ranks(2, [&](Ranks& ranks) { convert_with_arrays(in, parts, ranks, kPieces); });
+  on_ranks(2, [&](Ranks& ranks) { convert_with_arrays(in, parts, ranks, kPartitionPieces); });
   double number = 0;
   std::map<std::int64_t, double> expected;
   for (const auto& part : pieces::read_pvtu(parts)) {

@@ -8,13 +8,13 @@
 #include "ops/registry.h"
 #include "pieces/slices.h"
 #include "tests/pieces/meshes.h"
+#include "tests/support/registry.h"
 
 using namespace tetmend;
 using namespace tetmend::pieces;
+using namespace tetmend::test;
 
 namespace {
-
-const Registry kRegistry = Registry::builtin();
 
 std::string value_of(const ScheduleSettings& settings, std::string_view name) {
   for (const auto& [key, value] : settings) {

@@ -19,6 +19,7 @@
 #include "pieces/mesh_files.h"
 #include "pieces/out_of_core.h"
 #include "pieces/rank_share.h"
+#include "tests/kernel/formats/fixtures.h"
 #include "tests/pieces/meshes.h"
 #include "tests/pieces/played_ranks.h"
 
@@ -31,12 +32,7 @@ using pieces::RowKind;
 
 namespace {
 
-constexpr std::size_t kPieces = 3;
-
-std::string content_of(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
+constexpr std::size_t kArrayPieces = 3;
 
 /// Of all four types, in rows of one, two and three numbers; triangles and edges have others than
 /// tets.
@@ -66,7 +62,7 @@ MeshData lattice_with_arrays(std::uint32_t n) {
 }
 
 /// A range of a mesh for each rank. The first of several has nothing.
-RankShare share_of(const MeshData& data, const Ranks& ranks) {
+RankShare range_of_rank(const MeshData& data, const Ranks& ranks) {
   const RankShare all = pieces::all_of(data);
   const std::size_t count = std::max<std::size_t>(1, ranks.count() - 1);
   const bool has_nothing = ranks.count() > 1 && ranks.is_first();
@@ -102,7 +98,7 @@ class HeldMesh final : public pieces::ArrayFiles {
     return file.extension() == ".held";
   }
   RankShare read(const std::filesystem::path&, const std::string&) const override {
-    return share_of(data_, ranks_);
+    return range_of_rank(data_, ranks_);
   }
   void write(const std::filesystem::path&, const RankShare& share) const override {
     written = pieces::gather_arrays(share.arrays, ranks_);
@@ -121,7 +117,7 @@ class HeldMesh final : public pieces::ArrayFiles {
 /// Improves from one file to the other by so many ranks.
 KindArrays improve_by(std::size_t count, const MeshData& data, const std::filesystem::path& in,
                       const std::filesystem::path& out, const Options& options,
-                      std::size_t pieces = kPieces) {
+                      std::size_t pieces = kArrayPieces) {
   KindArrays written;
   on_ranks(count, [&](Ranks& ranks) {
     const HeldMesh held(data, ranks);
@@ -163,7 +159,7 @@ TEST_CASE("data on ranks is carried as by one process, whoever has it, and where
     const auto expected = folder.path() / "expected.vtu";
     Mesh mesh = MeshAccess::make(data);
     pieces::Division division;
-    division.pieces = kPieces;
+    division.pieces = kArrayPieces;
     pieces::improve(mesh, options, division);
     const MeshData improved = MeshAccess::data(mesh);
     save(expected, mesh);
@@ -171,7 +167,7 @@ TEST_CASE("data on ranks is carried as by one process, whoever has it, and where
       CAPTURE(count);
       const auto out = folder.path() / "out.vtu";
       improve_by(count, data, "in.held", out, options);
-      CHECK(content_of(out) == content_of(expected));
+      CHECK(read_text(out) == read_text(expected));
       const KindArrays written = improve_by(count, data, "in.held", "out.held", options);
       CHECK(is_same(written[RowKind::point], improved.point_data));
       CHECK(is_same(written[RowKind::tet], improved.tet_data));
@@ -189,7 +185,7 @@ TEST_CASE("data of a .vtu file, and of one that is read as a whole, goes to rank
     save(in, MeshAccess::make(data));
     Mesh mesh = load(in);
     pieces::Division division;
-    division.pieces = kPieces;
+    division.pieces = kArrayPieces;
     pieces::improve(mesh, {}, division);
     const MeshData improved = MeshAccess::data(mesh);
     for (const std::size_t count : {1, 3}) {
@@ -203,7 +199,7 @@ TEST_CASE("data of a .vtu file, and of one that is read as a whole, goes to rank
         files.output = "out.held";
         files.array_files = &held;
         pieces::Division pieces_of;
-        pieces_of.pieces = kPieces;
+        pieces_of.pieces = kArrayPieces;
         carried += pieces::improve_files(files, {}, pieces_of, ranks).carried.size();
         if (ranks.is_first()) written = held.written;
       });
@@ -229,7 +225,7 @@ TEST_CASE("walls between parts of one label, which a file does not name, have no
   save(in, MeshAccess::make(data));
   Mesh mesh = load(in);
   pieces::Division division;
-  division.pieces = kPieces;
+  division.pieces = kArrayPieces;
   pieces::improve(mesh, {}, division);
   const MeshData improved = MeshAccess::data(mesh);
   REQUIRE(improved.triangle_data.size() == 2);
@@ -244,7 +240,7 @@ TEST_CASE("walls between parts of one label, which a file does not name, have no
                                              "and constraints are not written"});
     };
     pieces::Division pieces_of;
-    pieces_of.pieces = kPieces;
+    pieces_of.pieces = kArrayPieces;
     pieces::improve_files(files, {}, pieces_of, ranks);
     if (!ranks.is_first()) return;
     CHECK(is_same(held.written[RowKind::point], improved.point_data));
@@ -269,7 +265,7 @@ TEST_CASE("a mesh of one piece keeps the data that lies on ranks, also in a file
     CHECK(is_same(written[RowKind::tet], improved.tet_data));
     CHECK(is_same(written[RowKind::triangle], improved.triangle_data));
     improve_by(count, data, "in.held", folder.path() / "out.vtu", {}, 1);
-    CHECK(content_of(folder.path() / "out.vtu") == content_of(folder.path() / "expected.vtu"));
+    CHECK(read_text(folder.path() / "out.vtu") == read_text(folder.path() / "expected.vtu"));
   }
 }
 
@@ -278,11 +274,11 @@ TEST_CASE("data on ranks goes to a file that the first process writes whole") {
   const Folder folder;
   Mesh mesh = MeshAccess::make(data);
   pieces::Division division;
-  division.pieces = kPieces;
+  division.pieces = kArrayPieces;
   pieces::improve(mesh, {}, division);
   save(folder.path() / "expected.vtk", mesh);
   improve_by(3, data, "in.held", folder.path() / "out.vtk", {});
-  CHECK(content_of(folder.path() / "out.vtk") == content_of(folder.path() / "expected.vtk"));
+  CHECK(read_text(folder.path() / "out.vtk") == read_text(folder.path() / "expected.vtk"));
 }
 
 TEST_CASE(

@@ -16,6 +16,7 @@
 #include "pieces/improve.h"
 #include "pieces/out_of_core.h"
 #include "pieces/rank_share.h"
+#include "tests/kernel/formats/fixtures.h"
 #include "tests/pieces/meshes.h"
 #include "tests/pieces/played_ranks.h"
 
@@ -28,27 +29,22 @@ using pieces::Ranks;
 
 namespace {
 
-constexpr std::size_t kPieces = 5;
-
-std::string bytes_of(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
+constexpr std::size_t kRankPieces = 5;
 
 /// A mesh on disk, and what `tetmend improve --pieces 5` makes of it.
-struct Files {
-  explicit Files(std::string ending = ".meshb", const Options& options = {})
+struct RankFiles {
+  explicit RankFiles(std::string ending = ".meshb", const Options& options = {})
       : in(folder.path() / ("in" + ending)),
         out(folder.path() / ("out" + ending)),
         checkpoint(folder.path() / "checkpoint") {
     save(in, MeshAccess::make(lattice(9)));
     Mesh mesh = load(in);
     Division division;
-    division.pieces = kPieces;
+    division.pieces = kRankPieces;
     pieces::improve(mesh, options, division);
     const auto expected_file = folder.path() / ("expected" + ending);
     save(expected_file, mesh);
-    expected = bytes_of(expected_file);
+    expected = read_text(expected_file);
   }
   OutOfCore all() const {
     OutOfCore files;
@@ -64,7 +60,7 @@ struct Files {
 
 Result improve(const OutOfCore& files, Ranks& ranks, const Options& options = {}) {
   Division division;
-  division.pieces = kPieces;
+  division.pieces = kRankPieces;
   return pieces::improve_files(files, options, division, ranks);
 }
 
@@ -86,7 +82,7 @@ void improve_all(const std::filesystem::path& folder) {
 }
 
 /// What a rank has of a mesh that lies on all of them, in unequal shares.
-pieces::RankShare share_of(const MeshData& data, const Ranks& ranks) {
+pieces::RankShare unequal_share(const MeshData& data, const Ranks& ranks) {
   pieces::RankShare mine;
   const auto begin_of = [&](std::size_t count, std::size_t rank) {
     return count * rank * rank / (ranks.count() * ranks.count());
@@ -113,7 +109,7 @@ pieces::RankShare share_of(const MeshData& data, const Ranks& ranks) {
 }
 
 /// The arrays of all ranks, one after another.
-MeshData joined(const std::vector<pieces::RankShare>& all) {
+MeshData joined_shares(const std::vector<pieces::RankShare>& all) {
   MeshData data;
   const auto append = [](const auto& from, auto& to) {
     for (const auto& each : from) {
@@ -138,7 +134,7 @@ MeshData joined(const std::vector<pieces::RankShare>& all) {
 TEST_CASE("the number of ranks does not show in the result, nor that of their threads") {
   for (const char* ending : {".meshb", ".mesh", ".vtu"}) {
     CAPTURE(ending);
-    const Files files(ending);
+    const RankFiles files(ending);
     for (const std::size_t count : {1, 2, 3, 8}) {
       CAPTURE(count);
       const int threads = count == 3 ? 2 : 1;
@@ -149,16 +145,16 @@ TEST_CASE("the number of ranks does not show in the result, nor that of their th
         CHECK(result.worse().empty());
         CHECK(result.surface_fingerprint_before == result.surface_fingerprint);
       });
-      CHECK(bytes_of(files.out) == files.expected);
+      CHECK(read_text(files.out) == files.expected);
     }
   }
 }
 
 TEST_CASE("the format of the output is free, and all ranks help to write it") {
-  const Files files;
+  const RankFiles files;
   Mesh mesh = load(files.in);
   Division division;
-  division.pieces = kPieces;
+  division.pieces = kRankPieces;
   pieces::improve(mesh, {}, division);
   for (const char* ending : {".msh", ".vtu", ".mesh"}) {
     CAPTURE(ending);
@@ -170,27 +166,27 @@ TEST_CASE("the format of the output is free, and all ranks help to write it") {
       CAPTURE(count);
       std::filesystem::remove(all.output);
       on_ranks(count, [&](Ranks& ranks) { improve(all, ranks); });
-      CHECK(bytes_of(all.output) == bytes_of(expected));
+      CHECK(read_text(all.output) == read_text(expected));
     }
   }
 }
 
 TEST_CASE("by which number the first vertex goes does not show in the result") {
   for (const char* ending : {".meshb", ".mesh"}) {
-    const Files files(ending);
+    const RankFiles files(ending);
     OutOfCore shifted = files.all();
     shifted.first_id = pieces::VertexId{1} << 33;
     for (const std::size_t count : {1, 3}) {
       CAPTURE(count);
       std::filesystem::remove(files.out);
       on_ranks(count, [&](Ranks& ranks) { improve(shifted, ranks); });
-      CHECK(bytes_of(files.out) == files.expected);
+      CHECK(read_text(files.out) == files.expected);
     }
   }
 }
 
 TEST_CASE("what a run took is known to all ranks: bytes, seconds, pieces") {
-  const Files files;
+  const RankFiles files;
   std::vector<pieces::PartTime> alone;
   for (const std::size_t count : {1, 4}) {
     std::vector<pieces::RunCosts> costs(count);
@@ -211,7 +207,7 @@ TEST_CASE("what a run took is known to all ranks: bytes, seconds, pieces") {
         return std::pair(a.step, a.part) < std::pair(b.step, b.part);
       });
       REQUIRE(parts.size() == alone.size());
-      CHECK(parts.size() >= 3 * kPieces);
+      CHECK(parts.size() >= 3 * kRankPieces);
       for (std::size_t i = 0; i < parts.size(); ++i) {
         CHECK(parts[i].part == alone[i].part);
         CHECK(parts[i].tets == alone[i].tets);
@@ -222,7 +218,7 @@ TEST_CASE("what a run took is known to all ranks: bytes, seconds, pieces") {
 }
 
 TEST_CASE("with one piece the first of several ranks does what improve() does") {
-  const Files files;
+  const RankFiles files;
   Mesh mesh = load(files.in);
   improve(mesh);
   const auto alone = files.folder.path() / "alone.meshb";
@@ -233,7 +229,7 @@ TEST_CASE("with one piece the first of several ranks does what improve() does") 
     pieces::improve_files(files.all(), {}, division, ranks);
     CHECK(division.pieces == 1);
   });
-  CHECK(bytes_of(files.out) == bytes_of(alone));
+  CHECK(read_text(files.out) == read_text(alone));
 }
 
 TEST_CASE("each rank has its share of the pieces, and together they have all") {
@@ -253,7 +249,7 @@ TEST_CASE("each rank has its share of the pieces, and together they have all") {
 }
 
 TEST_CASE("no zone is larger than a piece, and who has which cannot show") {
-  const Files files;
+  const RankFiles files;
   std::map<std::uint64_t, std::string> made;  // by the size that zones may have
   for (const std::uint64_t least : {std::uint64_t{1}, Division::kLeastZone}) {
     for (const std::size_t count : {1, 3}) {
@@ -263,7 +259,7 @@ TEST_CASE("no zone is larger than a piece, and who has which cannot show") {
       std::size_t number = 0;
       on_ranks(count, [&](Ranks& ranks) {
         Division division;
-        division.pieces = kPieces;
+        division.pieces = kRankPieces;
         division.least_zone = least;
         pieces::RunCosts costs;
         OutOfCore all = files.all();
@@ -276,7 +272,7 @@ TEST_CASE("no zone is larger than a piece, and who has which cannot show") {
           number += part.step == division.divisions ? 1 : 0;
         }
       });
-      const std::string bytes = bytes_of(files.out);
+      const std::string bytes = read_text(files.out);
       CHECK(made.try_emplace(least, bytes).first->second == bytes);
       CHECK((number > 1) == (least == 1));
       CHECK((zones <= pieces * 3 / 2) == (least == 1));
@@ -285,7 +281,7 @@ TEST_CASE("no zone is larger than a piece, and who has which cannot show") {
 }
 
 TEST_CASE("a run that was killed goes on from its checkpoint with any number of ranks") {
-  const Files files;
+  const RankFiles files;
   std::atomic<int> total = 0;
   const OutOfCore whole = with_crash(files.all(), total, 1'000'000);
   on_ranks(2, [&](Ranks& ranks) { improve(whole, ranks); });
@@ -304,7 +300,7 @@ TEST_CASE("a run that was killed goes on from its checkpoint with any number of 
     std::atomic<int> rest = 0;
     const OutOfCore counting = with_crash(saved, rest, 1'000'000);
     on_ranks(3, [&](Ranks& ranks) { improve(counting, ranks); });
-    CHECK(bytes_of(files.out) == files.expected);
+    CHECK(read_text(files.out) == files.expected);
     CHECK(!std::filesystem::exists(files.checkpoint));
     CHECK(rest == total - finished);  // what was finished is not done again
     std::filesystem::remove(files.out);
@@ -312,7 +308,7 @@ TEST_CASE("a run that was killed goes on from its checkpoint with any number of 
 }
 
 TEST_CASE("a checkpoint of another run is an error, and stays") {
-  const Files files;
+  const RankFiles files;
   OutOfCore saved = files.all();
   saved.checkpoint = files.checkpoint;
   std::atomic<int> calls = 0;
@@ -322,7 +318,7 @@ TEST_CASE("a checkpoint of another run is an error, and stays") {
       files.checkpoint.string() + ": has a run of another mesh, or with other options";
   CHECK_THROWS_WITH_AS(improve(saved, ranks, {.schedule = "conservative"}), message.c_str(), Error);
   Division division;
-  division.pieces = kPieces + 1;
+  division.pieces = kRankPieces + 1;
   CHECK_THROWS_WITH_AS(pieces::improve_files(saved, {}, division, ranks), message.c_str(), Error);
   std::ofstream(files.checkpoint / "run", std::ios::trunc) << "other bytes";
   CHECK_THROWS_AS(improve(saved, ranks), Error);
@@ -330,12 +326,12 @@ TEST_CASE("a checkpoint of another run is an error, and stays") {
 }
 
 TEST_CASE("damage of any file of a checkpoint is an error that names the file, before any work") {
-  const Files files;
+  const RankFiles files;
   OutOfCore saved = files.all();
   saved.checkpoint = files.checkpoint;
   std::atomic<int> calls = 0;
   pieces::OneRank alone;
-  CHECK_THROWS_AS(improve(with_crash(saved, calls, 2 * kPieces + 2), alone), Error);
+  CHECK_THROWS_AS(improve(with_crash(saved, calls, 2 * kRankPieces + 2), alone), Error);
   const std::filesystem::path good = files.folder.path() / "good";
   std::filesystem::copy(files.checkpoint, good, std::filesystem::copy_options::recursive);
   std::size_t damaged = 0;
@@ -343,7 +339,7 @@ TEST_CASE("damage of any file of a checkpoint is an error that names the file, b
     const std::filesystem::path file = entry.path().lexically_relative(good);
     if (!entry.is_regular_file() || file == "lock") continue;
     CAPTURE(file.string());
-    const std::string content = bytes_of(entry.path());
+    const std::string content = read_text(entry.path());
     const auto complaint_after = [&](const std::string& bytes) -> std::string {
       std::filesystem::remove_all(files.checkpoint);
       std::filesystem::copy(good, files.checkpoint, std::filesystem::copy_options::recursive);
@@ -370,12 +366,12 @@ TEST_CASE("damage of any file of a checkpoint is an error that names the file, b
     CHECK((lost.find(" is missing: delete ") != std::string::npos) == !is_run);
     ++damaged;
   }
-  CHECK(damaged == 1 + 2 * kPieces);  // the state, stored pieces and what was kept
+  CHECK(damaged == 1 + 2 * kRankPieces);  // the state, stored pieces and what was kept
   CHECK(!std::filesystem::exists(files.out));
 }
 
 TEST_CASE("a checkpoint of a mesh that has other bytes by now is one of another mesh") {
-  const Files files;
+  const RankFiles files;
   OutOfCore saved = files.all();
   saved.checkpoint = files.checkpoint;
   std::atomic<int> calls = 0;
@@ -390,7 +386,7 @@ TEST_CASE("a checkpoint of a mesh that has other bytes by now is one of another 
 
 TEST_CASE(
     "while a program works on the run of a folder, others are refused; tasks work side by side") {
-  const Files files;
+  const RankFiles files;
   OutOfCore saved = files.all();
   saved.checkpoint = files.checkpoint;
   pieces::OneRank alone;
@@ -405,7 +401,7 @@ TEST_CASE(
   }
   CHECK(!std::filesystem::exists(files.checkpoint));
   Division division;
-  division.pieces = kPieces;
+  division.pieces = kRankPieces;
   FolderRun::split(files.all(), files.checkpoint, {}, division);
   FolderRun run(files.checkpoint);
   {
@@ -421,7 +417,7 @@ TEST_CASE(
 }
 
 TEST_CASE("a folder that was there before a run stays, and so does a link") {
-  const Files files;
+  const RankFiles files;
   const std::filesystem::path behind = files.folder.path() / "behind";
   OutOfCore saved = files.all();
   saved.checkpoint = files.checkpoint;
@@ -431,7 +427,7 @@ TEST_CASE("a folder that was there before a run stays, and so does a link") {
     CHECK_THROWS_AS(improve(with_crash(saved, calls, 7), alone), Error);
     CHECK(std::filesystem::exists(files.checkpoint / "run"));
     improve(saved, alone);
-    CHECK(bytes_of(files.out) == files.expected);
+    CHECK(read_text(files.out) == files.expected);
   };
   std::filesystem::create_directory(files.checkpoint);
   run_to_its_end();
@@ -454,7 +450,7 @@ TEST_CASE("a folder that was there before a run stays, and so does a link") {
 }
 
 TEST_CASE("a run that was told to stop leaves the last whole division to go on from") {
-  const Files files;
+  const RankFiles files;
   OutOfCore saved = files.all();
   saved.checkpoint = files.checkpoint;
   std::atomic<bool> stop = false;
@@ -465,19 +461,19 @@ TEST_CASE("a run that was told to stop leaves the last whole division to go on f
   on_ranks(2, [&](Ranks& ranks) {
     CHECK(improve(saved, ranks, {.cancel = &stop}).ending == Ending::cancelled);
   });
-  CHECK(bytes_of(files.out) != files.expected);
+  CHECK(read_text(files.out) != files.expected);
   CHECK(std::filesystem::exists(files.checkpoint / "run"));
   saved.fault = {};
   on_ranks(1, [&](Ranks& ranks) { improve(saved, ranks); });
-  CHECK(bytes_of(files.out) == files.expected);
+  CHECK(read_text(files.out) == files.expected);
 }
 
 TEST_CASE("tasks over the files of a folder give the same bytes, killed or not") {
   const Options options = {.set = {{"max_rounds", "3"}}, .goal = {28, 152}};
-  const Files files(".meshb", options);
+  const RankFiles files(".meshb", options);
   const std::filesystem::path work = files.folder.path() / "work";
   Division division;
-  division.pieces = kPieces;
+  division.pieces = kRankPieces;
   FolderRun::split(files.all(), work, options, division);
   CHECK_THROWS_AS(FolderRun::split(files.all(), work, options, division), Error);
   FolderRun run(work);
@@ -494,7 +490,7 @@ TEST_CASE("tasks over the files of a folder give the same bytes, killed or not")
   CHECK(run.round().open == std::vector<std::size_t>{0, 1, 2, 3});
   run.improve({3, 2, 1, 0}, {});
   // A join that was killed has left pieces of the next round, and the file of this one.
-  const std::string state = bytes_of(work / "run");
+  const std::string state = read_text(work / "run");
   std::filesystem::copy(work / "step-1", files.folder.path() / "kept");
   run.join({});
   CHECK(FolderRun(work).round().name == "division 2");
@@ -504,12 +500,12 @@ TEST_CASE("tasks over the files of a folder give the same bytes, killed or not")
   FolderRun(work).join({});
   CHECK(!std::filesystem::exists(files.out));
   improve_all(work);
-  CHECK(bytes_of(files.out) == files.expected);
+  CHECK(read_text(files.out) == files.expected);
   CHECK(!std::filesystem::exists(work / "step-4"));
 }
 
 TEST_CASE("tasks over files go on from a checkpoint, and ranks from the files of tasks") {
-  const Files files;
+  const RankFiles files;
   OutOfCore saved = files.all();
   saved.checkpoint = files.checkpoint;
   std::atomic<int> calls = 0;
@@ -519,36 +515,36 @@ TEST_CASE("tasks over files go on from a checkpoint, and ranks from the files of
   CHECK(FolderRun(files.checkpoint).round().name == "division 2");
   FolderRun(files.checkpoint).improve({0, 3}, {});
   on_ranks(3, [&](Ranks& ranks) { improve(saved, ranks); });
-  CHECK(bytes_of(files.out) == files.expected);
+  CHECK(read_text(files.out) == files.expected);
 }
 
 TEST_CASE(
     "a mesh whose arrays lie on the ranks is divided as the mesh of a file, and comes back so") {
   const MeshData data = lattice(9);
-  const Files files;
+  const RankFiles files;
   for (const std::size_t count : {1, 2, 3, 8}) {
     CAPTURE(count);
     std::vector<pieces::RankShare> made(count);
     on_ranks(count, [&](Ranks& ranks) {
-      const pieces::RankShare mine = share_of(data, ranks);
+      const pieces::RankShare mine = unequal_share(data, ranks);
       pieces::MemoryShelf shelf;
       pieces::DividedMesh mesh(shelf, ranks, data.points.size());
       pieces::add_arrays(mine, mesh);
       made[ranks.number()] = pieces::take_arrays(mesh);
       CHECK(pieces::count_all(made[ranks.number()], ranks).tets == data.tets.size());
       CHECK(made[ranks.number()].points.size() <= data.points.size() / count + 1);
-      mesh.divide(kPieces, 0);
+      mesh.divide(kRankPieces, 0);
       pieces::MemoryShelf other;
       pieces::DividedMesh of_file(other, ranks, data.points.size());
-      pieces::InputMesh(files.in, ranks).add_to(of_file, kPieces);
-      of_file.divide(kPieces, 0);
+      pieces::InputMesh(files.in, ranks).add_to(of_file, kRankPieces);
+      of_file.divide(kRankPieces, 0);
       for (const std::size_t part : mesh.own()) {
         CHECK(mesh.gathered(part).ids == of_file.gathered(part).ids);
         CHECK(mesh.gathered(part).tets == of_file.gathered(part).tets);
         CHECK(mesh.gathered(part).marks == of_file.gathered(part).marks);
       }
     });
-    const MeshData again = joined(made);
+    const MeshData again = joined_shares(made);
     CHECK(again.points == data.points);
     CHECK(again.tets == data.tets);
     CHECK(again.triangles == data.triangles);
@@ -562,7 +558,7 @@ TEST_CASE("arrays that name what is not there are errors") {
   const auto message_of = [&](const auto& change) -> std::string {
     try {
       on_ranks(2, [&](Ranks& ranks) {
-        pieces::RankShare mine = share_of(data, ranks);
+        pieces::RankShare mine = unequal_share(data, ranks);
         change(mine);
         pieces::MemoryShelf shelf;
         pieces::DividedMesh mesh(shelf, ranks, data.points.size());
@@ -585,11 +581,11 @@ TEST_CASE("arrays that name what is not there are errors") {
 }
 
 TEST_CASE("a folder without a run, and a mesh that tasks cannot have, are errors") {
-  const Files files;
+  const RankFiles files;
   const std::filesystem::path none = files.folder.path() / "none";
   CHECK_THROWS_AS(FolderRun{none}, Error);
   Division division;
-  division.pieces = kPieces;
+  division.pieces = kRankPieces;
   CHECK_THROWS_AS(FolderRun::split(files.all(), none, {.keep_size = true}, division), OptionError);
   OutOfCore missing = files.all();
   missing.input = none;

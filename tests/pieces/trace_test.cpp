@@ -15,6 +15,7 @@
 #include "pieces/folder_run.h"
 #include "pieces/improve.h"
 #include "pieces/out_of_core.h"
+#include "tests/kernel/formats/fixtures.h"
 #include "tests/pieces/meshes.h"
 #include "tests/pieces/played_ranks.h"
 #include "trace/trace_file.h"
@@ -28,18 +29,7 @@ using pieces::Ranks;
 
 namespace {
 
-constexpr std::size_t kPieces = 5;
-
-std::string bytes_of(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
-Division in_pieces() {
-  Division division;
-  division.pieces = kPieces;
-  return division;
-}
+constexpr std::size_t kTracedPieces = 5;
 
 struct Bench {
   Bench() { save(in, MeshAccess::make(lattice(9))); }
@@ -47,7 +37,7 @@ struct Bench {
   std::string in_core(Options options, std::string* trouble = nullptr) const {
     options.trace = trace;
     Mesh mesh = load(in);
-    const Result result = pieces::improve(mesh, options, in_pieces());
+    const Result result = pieces::improve(mesh, options, in_pieces(kTracedPieces));
     if (trouble != nullptr) *trouble = result.trace_trouble;
     return taken();
   }
@@ -61,14 +51,14 @@ struct Bench {
     options.trace = trace;
     std::vector<Result> results(count);
     on_ranks(count, [&](Ranks& ranks) {
-      Division division = in_pieces();
+      Division division = in_pieces(kTracedPieces);
       results[ranks.number()] = pieces::improve_files(files, options, division, ranks);
     });
     for (const Result& each : results) CHECK(each.trace_trouble == results[0].trace_trouble);
     return results[0];
   }
   std::string taken() const {
-    std::string bytes = bytes_of(trace);
+    std::string bytes = read_text(trace);
     std::filesystem::remove(trace);
     return bytes;
   }
@@ -88,7 +78,7 @@ std::string setting(const TraceFile& file, std::string_view name) {
 
 /// What the call says is wrong with an option.
 template <class Call>
-std::string complaint(const Call& call) {
+std::string option_complaint(const Call& call) {
   try {
     call();
   } catch (const OptionError& error) {
@@ -115,7 +105,7 @@ TEST_CASE("the trace of a piece has the same bytes for ranks, threads, files and
       CHECK(bench.taken() == expected);
     }
     const std::filesystem::path work = bench.folder.path() / ("work" + piece.substr(0, 1));
-    FolderRun::split(bench.files(), work, {}, in_pieces());
+    FolderRun::split(bench.files(), work, {}, in_pieces(kTracedPieces));
     const std::size_t round = std::stoul(piece.substr(0, 1));
     const std::size_t part = std::stoul(piece.substr(2));
     for (;;) {
@@ -136,10 +126,10 @@ TEST_CASE("the trace of a piece has the same bytes for ranks, threads, files and
 TEST_CASE("a trace does not show in the mesh, and says which piece of which run it is of") {
   const Bench bench;
   bench.by_ranks(bench.files(), 1, {});
-  const std::string mesh = bytes_of(bench.out);
+  const std::string mesh = read_text(bench.out);
   bench.taken();
   bench.by_ranks(bench.files(), 2, {.trace_piece = "2:4", .trace_depth = 1});
-  CHECK(bytes_of(bench.out) == mesh);
+  CHECK(read_text(bench.out) == mesh);
   const TraceFile file(bench.trace);
   CHECK(file.header().input == bench.in.string());
   CHECK(setting(file, "--pieces") == "5");
@@ -206,18 +196,19 @@ TEST_CASE("a piece that no run can have is a wrong option, before anything is wo
     const Options options = {.trace = bench.trace, .trace_piece = piece};
     const auto in_core = [&] {
       Mesh mesh = load(bench.in);
-      pieces::improve(mesh, options, in_pieces());
+      pieces::improve(mesh, options, in_pieces(kTracedPieces));
     };
-    CHECK(complaint(in_core) == "trace_piece: " + reason);
-    CHECK(complaint([&] { bench.by_ranks(bench.files(), 2, options); }) ==
+    CHECK(option_complaint(in_core) == "trace_piece: " + reason);
+    CHECK(option_complaint([&] { bench.by_ranks(bench.files(), 2, options); }) ==
           "trace_piece: " + reason);
   }
   Mesh mesh = load(bench.in);
-  CHECK(complaint([&] { improve(mesh, {.trace = bench.trace, .trace_piece = "1"}); }) ==
+  CHECK(option_complaint([&] { improve(mesh, {.trace = bench.trace, .trace_piece = "1"}); }) ==
         "trace_piece: the run is not in pieces");
-  CHECK(complaint([&] { pieces::improve(mesh, {.trace_piece = "1:2"}, in_pieces()); }) ==
-        "trace_piece: it needs the option trace");
-  CHECK(complaint([&] { bench.by_ranks(bench.files(), 2, {.trace_around = "99999"}); }) ==
+  CHECK(option_complaint([&] {
+          pieces::improve(mesh, {.trace_piece = "1:2"}, in_pieces(kTracedPieces));
+        }) == "trace_piece: it needs the option trace");
+  CHECK(option_complaint([&] { bench.by_ranks(bench.files(), 2, {.trace_around = "99999"}); }) ==
         "trace_around: there is no tet 99999 in the mesh, or not any more; they count from 0");
   CHECK(!std::filesystem::exists(bench.trace));
   CHECK(!std::filesystem::exists(bench.out));
@@ -264,7 +255,7 @@ TEST_CASE("a run that goes on records what is left to do, and keeps the trace of
     if (++calls > 7) throw Error("crash");
   };
   CHECK_THROWS_AS(bench.by_ranks(crashing, 2, {.trace_piece = "2"}), Error);
-  CHECK(complaint([&] { bench.by_ranks(saved, 2, {.trace_piece = "1:3"}); }) ==
+  CHECK(option_complaint([&] { bench.by_ranks(saved, 2, {.trace_piece = "1:3"}); }) ==
         "trace_piece: round 1 is over, and was not recorded");
   CHECK(std::filesystem::exists(saved.checkpoint / "run"));
 }
@@ -272,12 +263,12 @@ TEST_CASE("a run that goes on records what is left to do, and keeps the trace of
 TEST_CASE("a task records the one piece that it is given, as long as that is open") {
   const Bench bench;
   const std::filesystem::path work = bench.folder.path() / "work";
-  FolderRun::split(bench.files(), work, {}, in_pieces());
+  FolderRun::split(bench.files(), work, {}, in_pieces(kTracedPieces));
   FolderRun run(work);
   const Options options = {.trace = bench.trace};
   CHECK_THROWS_WITH_AS(run.improve({0, 1}, options),
                        "trace: it is of one piece, which must be named", Error);
-  CHECK(run.round().open.size() == kPieces);
+  CHECK(run.round().open.size() == kTracedPieces);
   CHECK(run.improve({1}, options) == 1);
   CHECK(!bench.taken().empty());
   CHECK_THROWS_WITH_AS(run.improve({1}, options), "trace: piece 1 is finished already", Error);

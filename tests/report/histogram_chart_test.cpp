@@ -12,7 +12,7 @@ using tetmend::test::contains;
 
 namespace {
 
-HistogramContent example() {
+HistogramContent example_histogram() {
   HistogramContent content;
   content.name = "mean_ratio";
   content.title = "mean <ratio>";
@@ -60,7 +60,7 @@ double top_of(const std::string& html, const std::string& scale, const std::stri
 }  // namespace
 
 TEST_CASE("each bin that is shown says its counts, and bins that are left out are empty") {
-  const HistogramContent content = example();
+  const HistogramContent content = example_histogram();
   const std::vector<Bin> bins = bins_of(histogram_chart(content));
   REQUIRE(!bins.empty());
   CHECK(bins.front().bin == 4);
@@ -74,7 +74,7 @@ TEST_CASE("each bin that is shown says its counts, and bins that are left out ar
 }
 
 TEST_CASE("the fullest bin reaches the top on both scales, a small one only on the logarithmic") {
-  const std::string html = histogram_chart(example());
+  const std::string html = histogram_chart(example_histogram());
   constexpr double kTop = 10;
   constexpr double kBottom = 160;
   CHECK(top_of(html, "scale-log", "before") == doctest::Approx(kTop));
@@ -84,20 +84,20 @@ TEST_CASE("the fullest bin reaches the top on both scales, a small one only on t
 }
 
 TEST_CASE("a chart of nothing, of one bin and of bad angles is drawn") {
-  HistogramContent empty = example();
+  HistogramContent empty = example_histogram();
   empty.before.assign(40, 0);
   empty.after.assign(40, 0);
   CHECK(bins_of(histogram_chart(empty)).size() >= 8);
-  HistogramContent angles = example();
+  HistogramContent angles = example_histogram();
   angles.bad_below = 0.2;
   angles.bad_above = 0.9;
   CHECK(contains(histogram_chart(angles), "class=\"miss\""));
-  CHECK(!contains(histogram_chart(example()), "class=\"miss\""));
-  CHECK(!contains(histogram_chart(example()), "nan"));
+  CHECK(!contains(histogram_chart(example_histogram()), "class=\"miss\""));
+  CHECK(!contains(histogram_chart(example_histogram()), "nan"));
 }
 
 TEST_CASE("names are texts") {
-  const std::string html = histogram_chart(example());
+  const std::string html = histogram_chart(example_histogram());
   CHECK(contains(html, "mean &lt;ratio&gt;"));
   CHECK(!contains(html, "<ratio>"));
 }

@@ -10,18 +10,11 @@
 #include "tests/support/zoo.h"
 
 using namespace tetmend;
+using namespace tetmend::test;
 using nlohmann::json;
 using tetmend::test::contains;
 
 namespace {
-
-std::size_t count(const std::string& text, const std::string& part) {
-  std::size_t found = 0;
-  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) {
-    ++found;
-  }
-  return found;
-}
 
 /// All texts of it are `text`.
 json report_of(const std::string& text) {
@@ -61,10 +54,10 @@ TEST_CASE("texts of a report are texts on its page, whatever they say") {
   const std::string bad =
       "</script><script>alert('x')</script><img src=x onerror=alert(1)>&\"\xff@SHAPE@";
   const std::string page = report::write_page(report_of(bad), small_portrait());
-  CHECK(count(page, "<script") == 3);  // about the shape, the shape, the script
-  CHECK(count(page, "</script>") == 3);
-  CHECK(count(page, "<img") == 0);
-  CHECK(count(page, "\xff") == 0);
+  CHECK(count_of(page, "<script") == 3);  // about the shape, the shape, the script
+  CHECK(count_of(page, "</script>") == 3);
+  CHECK(count_of(page, "<img") == 0);
+  CHECK(count_of(page, "\xff") == 0);
   CHECK(contains(page, "&lt;img src=x"));
 }
 

@@ -24,7 +24,7 @@ json statistics(std::size_t n_bad, double theta_min, double theta_max) {
           {"lambda", 1.5},          {"histogram", json::array()}};
 }
 
-json example() {
+json example_report() {
   return {
       {"before", statistics(40, 2.5, 171.25)},
       {"after", statistics(0, 30.5, 148)},
@@ -51,7 +51,7 @@ std::string sentence(const json& report) {
 }  // namespace
 
 TEST_CASE("a goal that is reached") {
-  const json report = example();
+  const json report = example_report();
   CHECK(verdict_of(Figures(report)).outcome == Outcome::reached);
   CHECK(sentence(report) ==
         "The goal of 30 to 150 degrees is reached: all 40 bad tets are gone. The smallest angle "
@@ -60,7 +60,7 @@ TEST_CASE("a goal that is reached") {
 }
 
 TEST_CASE("a goal that is missed, and who is to blame") {
-  json report = example();
+  json report = example_report();
   report["after"] = statistics(1, 7.25, 160);
   CHECK(verdict_of(Figures(report)).outcome == Outcome::missed);
   CHECK(sentence(report).starts_with(
@@ -73,7 +73,7 @@ TEST_CASE("a goal that is missed, and who is to blame") {
 }
 
 TEST_CASE("a mesh with nothing bad, a run that was stopped, tets that stay inverted") {
-  json report = example();
+  json report = example_report();
   report["before"] = statistics(0, 31, 140);
   CHECK(sentence(report).starts_with("No tet missed the goal"));
   report["interrupted"] = true;
@@ -87,14 +87,14 @@ TEST_CASE("a mesh with nothing bad, a run that was stopped, tets that stay inver
 }
 
 TEST_CASE("each number of a sentence says where it stands, and what it is exactly") {
-  json report = example();
+  json report = example_report();
   report["before"]["theta_min"] = 2.0 / 3;
   CHECK(contains(verdict_of(Figures(report)).sentence,
                  R"(<data data-of="before.theta_min" value="0.6666666666666666">0.67</data>)"));
 }
 
 TEST_CASE("promises are kept unless the report says what is worse") {
-  json report = example();
+  json report = example_report();
   report["before"]["rulers"] = {{"mean_ratio", {{"worst", 0.1}}}};
   report["after"]["rulers"] = {{"mean_ratio", {{"worst", 0.2}}}};
   const auto broken = [&] {
@@ -120,7 +120,7 @@ TEST_CASE("promises are kept unless the report says what is worse") {
 }
 
 TEST_CASE("an angle that fell for mended tets is no broken promise, and is listed as worse") {
-  json report = example();
+  json report = example_report();
   report["worse_than_before"] = {"a theta_min of 0.5 instead of 2.5"};
   const auto table = [&] { return promise_table(Figures(report)); };
   CHECK(contains(table(), "\u2717 broken"));
@@ -134,7 +134,7 @@ TEST_CASE("an angle that fell for mended tets is no broken promise, and is liste
 
 TEST_CASE(
     "a surface that may move has its tolerance and the proven bound under headings of its own") {
-  json report = example();
+  json report = example_report();
   const auto heads = [&] { return plain(promise_table(Figures(report))); };
   CHECK(!contains(heads(), "tolerance"));
   report["surface"]["tolerance"] = 0.0245;
@@ -148,7 +148,7 @@ TEST_CASE(
 }
 
 TEST_CASE("the name of a pass of many operators is folded") {
-  json report = example();
+  json report = example_report();
   const auto table = [&](const char* name) {
     report["passes"] = {{{"name", name},
                          {"round", 1},
@@ -166,7 +166,7 @@ TEST_CASE("the name of a pass of many operators is folded") {
 }
 
 TEST_CASE("passes of one name are summed up, and protected bad tets are nobody's work") {
-  json report = example();
+  json report = example_report();
   const auto pass = [](const char* name, unsigned attempts, unsigned n_bad) {
     return json{{"name", name},
                 {"round", 1},
@@ -184,7 +184,7 @@ TEST_CASE("passes of one name are summed up, and protected bad tets are nobody's
   CHECK(contains(chart,
                  "<title>smooth, round 1: 0.25 s; 1,000 tried, 500 kept; bad tets 36 to 25; "
                  "worst quality 0.5</title>"));
-  CHECK(progress_chart(Figures(example())).empty());
+  CHECK(progress_chart(Figures(example_report())).empty());
 }
 
 TEST_CASE("words of a command are quoted where a shell would take them apart") {

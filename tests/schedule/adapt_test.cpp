@@ -16,13 +16,13 @@
 #include "kernel/wanted_lengths.h"
 #include "schedule/passes.h"
 #include "schedule/schedule.h"
+#include "tests/support/registry.h"
 
 using namespace tetmend;
 using namespace tetmend::contract;
+using namespace tetmend::test;
 
 namespace {
-
-const Registry kRegistry = Registry::builtin();
 
 struct Share {
   std::size_t edges = 0;

@@ -11,14 +11,13 @@
 #include "kernel/error.h"
 #include "kernel/integrity.h"
 #include "schedule/passes.h"
+#include "tests/support/registry.h"
 #include "tests/support/zoo.h"
 
 using namespace tetmend;
 using namespace tetmend::test;
 
 namespace {
-
-const Registry kRegistry = Registry::builtin();
 
 Composition op(const std::string& name, ParameterSettings settings = {}) {
   return {.operator_name = name, .settings = std::move(settings)};

@@ -16,6 +16,8 @@
 #include "kernel/integrity.h"
 #include "kernel/statistics.h"
 #include "schedule/schedule.h"
+#include "tests/support/assets.h"
+#include "tests/support/registry.h"
 #include "tests/support/threads.h"
 #include "tests/support/zoo.h"
 
@@ -23,14 +25,6 @@ using namespace tetmend;
 using namespace tetmend::test;
 
 namespace {
-
-const std::filesystem::path kSource = TETMEND_SOURCE_DIR;
-
-const Registry kRegistry = Registry::builtin();
-
-MeshData asset(const std::string& file) {
-  return read_mesh(kSource / "assets/meshes" / file);
-}
 
 // ---- Meshes -------------------------------------------------------------------------------------
 
@@ -41,7 +35,7 @@ Point centre(const MeshData& data, const MeshData::Tet& tet) {
 }
 
 /// The unit cube, its points inside moved, with slivers.
-MeshData bad_cube() {
+MeshData cube_with_slivers() {
   return kuhn_cube(8, 0.33, 5);
 }
 
@@ -64,7 +58,7 @@ void add_sheet(MeshData& data, Label label, IsAbove&& is_above, IsPart&& is_part
 
 /// A sheet with a hole and a free rim, all within one region.
 MeshData cube_with_sheet() {
-  MeshData data = bad_cube();
+  MeshData data = cube_with_slivers();
   const auto radius = [](const Point& p) { return (p - Point(0.5, 0.5, 0.5)).norm(); };
   add_sheet(
       data, 10, [](const Point& p) { return p.x() + 0.4 * p.y() > 0.7; },
@@ -74,7 +68,7 @@ MeshData cube_with_sheet() {
 
 /// Two regions with a slanted border, one with a sheet that ends at the border.
 MeshData two_regions_with_sheet() {
-  MeshData data = bad_cube();
+  MeshData data = cube_with_slivers();
   const auto above = [](const Point& p) { return p.z() > 0.35 + 0.3 * p.x(); };
   for (MeshData::Tet& tet : data.tets) tet.label = above(centre(data, tet)) ? 4 : 9;
   add_sheet(
@@ -84,7 +78,7 @@ MeshData two_regions_with_sheet() {
 
 /// Edges in no face, chains of them, and required vertices, strewn over a region.
 MeshData cube_with_edges_and_vertices() {
-  MeshData data = bad_cube();
+  MeshData data = cube_with_slivers();
   for (std::size_t i = 0; i < data.tets.size(); ++i) {
     const auto& v = data.tets[i].vertices;
     if (i % 37 == 5) data.edges.push_back({{v[1], v[3]}, 6});
@@ -108,10 +102,10 @@ MeshData strewn_ball() {
   return data;
 }
 
-std::vector<NamedMesh> meshes() {
-  return {{"sheet.mesh", asset("sheet.mesh")},
-          {"folded_sheet.mesh", asset("folded_sheet.mesh")},
-          {"two_materials.mesh", asset("two_materials.mesh")},
+std::vector<NamedMesh> constrained_meshes() {
+  return {{"sheet.mesh", read_mesh(asset("sheet.mesh"))},
+          {"folded_sheet.mesh", read_mesh(asset("folded_sheet.mesh"))},
+          {"two_materials.mesh", read_mesh(asset("two_materials.mesh"))},
           {"cube_with_sheet", cube_with_sheet()},
           {"two_regions_with_sheet", two_regions_with_sheet()},
           {"cube_with_edges_and_vertices", cube_with_edges_and_vertices()},
@@ -121,7 +115,7 @@ std::vector<NamedMesh> meshes() {
 // ---- What must be kept --------------------------------------------------------------------------
 
 using Coordinates = std::array<double, 3>;
-using Corners = std::vector<Coordinates>;
+using Places = std::vector<Coordinates>;
 
 Coordinates at(const MeshData& data, std::uint32_t v) {
   const Point& p = data.points[v];
@@ -129,13 +123,13 @@ Coordinates at(const MeshData& data, std::uint32_t v) {
 }
 
 template <class Vertices>
-Corners corners(const MeshData& data, const Vertices& vertices) {
-  Corners all;
+Places places_of(const MeshData& data, const Vertices& vertices) {
+  Places all;
   for (const std::uint32_t v : vertices) all.push_back(at(data, v));
   return all;
 }
 
-Corners unordered(Corners all) {
+Places unordered(Places all) {
   std::sort(all.begin(), all.end());
   return all;
 }
@@ -143,26 +137,26 @@ Corners unordered(Corners all) {
 struct Content {
   std::map<Label, long double> volumes;
   long double absolute = 0;
-  std::map<Label, std::multiset<Corners>> surfaces;  // of each region, outwards
-  std::vector<std::pair<Corners, Label>> triangles;
-  std::vector<std::pair<Corners, Label>> edges;
+  std::map<Label, std::multiset<Places>> surfaces;  // of each region, outwards
+  std::vector<std::pair<Places, Label>> triangles;
+  std::vector<std::pair<Places, Label>> edges;
   std::vector<Coordinates> required;
-  std::set<Corners> named_faces;  // triangles that are faces of tets, corners sorted
-  std::set<Corners> named_edges;  // edges of tets
+  std::set<Places> named_faces;  // triangles that are faces of tets, corners sorted
+  std::set<Places> named_edges;  // edges of tets
   std::size_t bad = 0;
 };
 
 Content content_of(const MeshData& data) {
   Content p;
   for (const auto& triangle : data.triangles)
-    p.triangles.emplace_back(corners(data, triangle.vertices), triangle.label);
+    p.triangles.emplace_back(places_of(data, triangle.vertices), triangle.label);
   for (const auto& edge : data.edges)
-    p.edges.emplace_back(corners(data, edge.vertices), edge.label);
+    p.edges.emplace_back(places_of(data, edge.vertices), edge.label);
   for (const std::uint32_t v : data.required_vertices) p.required.push_back(at(data, v));
   std::sort(p.required.begin(), p.required.end());
   p.required.erase(std::unique(p.required.begin(), p.required.end()), p.required.end());
 
-  std::map<std::array<std::uint32_t, 3>, std::vector<std::pair<Label, Corners>>> sides;
+  std::map<std::array<std::uint32_t, 3>, std::vector<std::pair<Label, Places>>> sides;
   std::set<std::array<std::uint32_t, 2>> tet_edges;
   const auto sorted = [](auto vertices) {
     std::sort(vertices.begin(), vertices.end());
@@ -178,7 +172,7 @@ Content content_of(const MeshData& data) {
     p.bad += minimum_sine(x[0], x[1], x[2], x[3]) < 0.5;
     for (const auto& local : kFaceVertices) {
       const std::array<std::uint32_t, 3> face = {v[local[0]], v[local[1]], v[local[2]]};
-      Corners outwards = corners(data, face);
+      Places outwards = places_of(data, face);
       std::rotate(outwards.begin(), std::min_element(outwards.begin(), outwards.end()),
                   outwards.end());
       sides[sorted(face)].emplace_back(tet.label, outwards);
@@ -193,16 +187,16 @@ Content content_of(const MeshData& data) {
   }
   for (const auto& triangle : data.triangles) {
     if (sides.contains(sorted(triangle.vertices)))
-      p.named_faces.insert(unordered(corners(data, triangle.vertices)));
+      p.named_faces.insert(unordered(places_of(data, triangle.vertices)));
   }
   for (const auto& edge : data.edges) {
     if (tet_edges.contains(sorted(edge.vertices)))
-      p.named_edges.insert(unordered(corners(data, edge.vertices)));
+      p.named_edges.insert(unordered(places_of(data, edge.vertices)));
   }
   return p;
 }
 
-void check_kept(const Content& now, const Content& before) {
+void check_content_kept(const Content& now, const Content& before) {
   REQUIRE(now.volumes.size() == before.volumes.size());
   for (const auto& [label, volume] : before.volumes) {
     REQUIRE(now.volumes.contains(label));
@@ -226,13 +220,13 @@ void improve_in_blocks(TetMesh& mesh, std::size_t blocks) {
   CHECK(to_string(check_integrity(mesh)) == "");
 }
 
-using Cells = std::multiset<std::pair<Label, Corners>>;
+using Cells = std::multiset<std::pair<Label, Places>>;
 
 Cells frozen_cells(const TetMesh& mesh) {
   Cells all;
   for (const TetHandle t : live_tets(mesh)) {
     if (!mesh.is_frozen(t)) continue;
-    Corners of_tet;
+    Places of_tet;
     for (const VertexHandle v : mesh.vertices(t)) {
       of_tet.push_back({mesh.point(v).x(), mesh.point(v).y(), mesh.point(v).z()});
     }
@@ -253,7 +247,7 @@ double free_deficit(const TetMesh& mesh) {
 }  // namespace
 
 TEST_CASE("the schedule keeps each region, and all that a file names, in any number of blocks") {
-  for (const NamedMesh& named : meshes()) {
+  for (const NamedMesh& named : constrained_meshes()) {
     CAPTURE(named.name);
     const Content before = content_of(named.data);
     for (const std::size_t blocks : {1, 2, 7}) {
@@ -261,7 +255,7 @@ TEST_CASE("the schedule keeps each region, and all that a file names, in any num
       TetMesh mesh = TetMesh::sorted(named.data);
       improve_in_blocks(mesh, blocks);
       const Content now = content_of(mesh.to_data());
-      check_kept(now, before);
+      check_content_kept(now, before);
       CHECK(now.bad < before.bad);
     }
   }
@@ -279,12 +273,12 @@ TEST_CASE("the meshes of these tests have what they are meant to test") {
     return std::array<std::size_t, 3>{report.dropped_triangles, report.dropped_edges,
                                       report.dropped_vertices};
   };
-  for (const NamedMesh& named : meshes()) {
+  for (const NamedMesh& named : constrained_meshes()) {
     if (named.name != "strewn_ball") CHECK(loose(named.data) == 0);
   }
-  CHECK(free_standing(asset("sheet.mesh"))[0] == 94);
-  CHECK(free_standing(asset("folded_sheet.mesh"))[0] == 252);
-  CHECK(free_standing(asset("two_materials.mesh"))[0] == 0);
+  CHECK(free_standing(read_mesh(asset("sheet.mesh")))[0] == 94);
+  CHECK(free_standing(read_mesh(asset("folded_sheet.mesh")))[0] == 252);
+  CHECK(free_standing(read_mesh(asset("two_materials.mesh")))[0] == 0);
   CHECK(free_standing(cube_with_sheet())[0] > 40);
   CHECK(free_standing(two_regions_with_sheet())[0] > 40);
   const auto strewn = free_standing(cube_with_edges_and_vertices());
@@ -295,18 +289,18 @@ TEST_CASE("the meshes of these tests have what they are meant to test") {
 }
 
 TEST_CASE("without interior constraints regions and surface are kept all the same") {
-  for (const NamedMesh& named : meshes()) {
+  for (const NamedMesh& named : constrained_meshes()) {
     CAPTURE(named.name);
     TetMesh mesh = TetMesh::sorted(named.data, nullptr, InteriorConstraints::dropped);
     const Content before = content_of(mesh.to_data());
     CHECK(before.surfaces == content_of(named.data).surfaces);
     improve_in_blocks(mesh, 2);
-    check_kept(content_of(mesh.to_data()), before);
+    check_content_kept(content_of(mesh.to_data()), before);
   }
 }
 
 TEST_CASE("a sharply folded sheet is kept at a price that a run without it does not pay") {
-  const MeshData data = asset("folded_sheet.mesh");
+  const MeshData data = read_mesh(asset("folded_sheet.mesh"));
   TetMesh respected = TetMesh::sorted(data);
   TetMesh ignored = TetMesh::sorted(data, nullptr, InteriorConstraints::dropped);
   improve_in_blocks(respected, 1);
@@ -319,7 +313,7 @@ TEST_CASE("a sharply folded sheet is kept at a price that a run without it does 
 }
 
 TEST_CASE("frozen tets go through the schedule untouched, and the others get better") {
-  for (const NamedMesh& named : meshes()) {
+  for (const NamedMesh& named : constrained_meshes()) {
     CAPTURE(named.name);
     const Content before = content_of(named.data);
     for (const std::size_t blocks : {1, 5}) {
@@ -339,7 +333,7 @@ TEST_CASE("frozen tets go through the schedule untouched, and the others get bet
       const double deficit_before = free_deficit(mesh);
       improve_in_blocks(mesh, blocks);
       CHECK(frozen_cells(mesh) == cells);
-      check_kept(content_of(mesh.to_data()), before);
+      check_content_kept(content_of(mesh.to_data()), before);
       // Among so many fixed vertices a better worst tet may be paid for with mild bad ones.
       CHECK(quality_indicators(mesh).q_worst >= free_before.q_worst);
       CHECK(free_deficit(mesh) < 0.9 * deficit_before);
@@ -348,7 +342,7 @@ TEST_CASE("frozen tets go through the schedule untouched, and the others get bet
 }
 
 TEST_CASE("no pass tries a frozen tet or one of its vertices") {
-  TetMesh mesh(bad_cube());
+  TetMesh mesh(cube_with_slivers());
   mesh.freeze([&](TetHandle t) { return mesh.quality(t) < kBadThreshold; });
   const TetMesh before = mesh;
   Run run(mesh, kRegistry);

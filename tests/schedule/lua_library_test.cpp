@@ -31,7 +31,7 @@ struct Watched {
 constexpr std::size_t kNever = 1000000000;
 
 /// @param most the watch stops the script so many calls after the first mark
-Watched run(const std::string& script, std::size_t most = kNever) {
+Watched run_watched(const std::string& script, std::size_t most = kNever) {
   Watched watched;
   LuaState lua({}, [&] {
     ++watched.watches;
@@ -55,7 +55,7 @@ Watched run(const std::string& script, std::size_t most = kNever) {
 }
 
 std::string said(const std::string& script) {
-  const Watched watched = run(script);
+  const Watched watched = run_watched(script);
   return watched.error + watched.said;
 }
 
@@ -98,11 +98,11 @@ TEST_CASE("no function of the library works long without a watch") {
   for (const Attack& attack : attacks) {
     CAPTURE(attack.call);
     const std::string script = attack.before + "mark() " + attack.call + " mark()";
-    const Watched whole = run(script);
+    const Watched whole = run_watched(script);
     CHECK(whole.error == "");
     CHECK(whole.between_marks() >= attack.least_watches);
     if (attack.least_watches < 4) continue;
-    const Watched half = run(script, attack.least_watches / 2);
+    const Watched half = run_watched(script, attack.least_watches / 2);
     CHECK(half.stopped);
     CHECK(half.marks.size() == 1);
     CHECK(half.watches == half.marks[0] + attack.least_watches / 2);
@@ -115,23 +115,23 @@ TEST_CASE("a list that claims an enormous length can be stopped") {
   for (const char* call : {"table.insert(t, 1, '')", "table.concat(t, '', 1, 1 << 40)",
                            "table.remove(t, 1)", "table.unpack(t, 1, 1 << 40)", "table.sort(t)"}) {
     CAPTURE(call);
-    const Watched watched = run(trap + "local x = " + call, 1000);
+    const Watched watched = run_watched(trap + "local x = " + call, 1000);
     CHECK((watched.stopped || watched.error != "" || watched.watches < 1000));
   }
 }
 
 TEST_CASE("texts that one instruction would take long for are refused") {
-  CHECK(run("local s = 'x' while true do s = s .. s end").error ==
+  CHECK(run_watched("local s = 'x' while true do s = s .. s end").error ==
         "test.lua:1: a text is longer than 4 MB");
-  CHECK(
-      run("local t = {} for i = 1, 5 do t[i] = 'x' end\n" + kText + "local u = table.concat(t, s)")
-          .error == "test.lua:2: a text is longer than 4 MB");
-  CHECK(run(kText + "local u = string.format('%q', s)").error ==
+  CHECK(run_watched("local t = {} for i = 1, 5 do t[i] = 'x' end\n" + kText +
+                    "local u = table.concat(t, s)")
+            .error == "test.lua:2: a text is longer than 4 MB");
+  CHECK(run_watched(kText + "local u = string.format('%q', s)").error ==
         "test.lua:1: string.format: the text is too long for %q");
 }
 
 TEST_CASE("a usual script is watched every thousand instructions and no more often") {
-  const Watched watched = run("mark() for i = 1, 100000 do end mark()");
+  const Watched watched = run_watched("mark() for i = 1, 100000 do end mark()");
   CHECK(watched.between_marks() >= 90);
   CHECK(watched.between_marks() <= 110);
 }
@@ -145,45 +145,45 @@ TEST_CASE("table.sort sorts, and what is equal keeps its order") {
              "table.sort(t, function(x, y) return x // 10 < y // 10 end) "
              "say(table.concat(t, ','))") == "12,14,11,13,31,33,35,32,34 ");
   CHECK(said("local t = {} table.sort(t) say(#t) t = {4} table.sort(t) say(t[1])") == "0 4 ");
-  CHECK(contains(run("table.sort({1, 'a'})").error, "test.lua:1: attempt to compare"));
-  CHECK(contains(run("table.sort({2, 1}, 3)").error, "function expected"));
+  CHECK(contains(run_watched("table.sort({1, 'a'})").error, "test.lua:1: attempt to compare"));
+  CHECK(contains(run_watched("table.sort({2, 1}, 3)").error, "function expected"));
 }
 
 TEST_CASE("a comparison that contradicts itself gives some order, in n log n steps, from inside") {
   for (const char* answer :
        {"true", "false", "n % 2 == 0", "n % 3 == 0", "x ~= y", "x * 7919 % 13 < 6"}) {
     CAPTURE(answer);
-    const Watched watched =
-        run("local t, n = {}, 0 for i = 1, 1000 do t[i] = i end\n"
-            "table.sort(t, function(x, y) n = n + 1 assert(x and y) return " +
-            std::string(answer) +
-            " end)\n"
-            "assert(n <= 10000 and #t == 1000)\n"
-            "local seen = {} for i = 1, 1000 do assert(not seen[t[i]]) seen[t[i]] = true end\n"
-            "say(t[1], t[500], t[1000])");
+    const Watched watched = run_watched(
+        "local t, n = {}, 0 for i = 1, 1000 do t[i] = i end\n"
+        "table.sort(t, function(x, y) n = n + 1 assert(x and y) return " +
+        std::string(answer) +
+        " end)\n"
+        "assert(n <= 10000 and #t == 1000)\n"
+        "local seen = {} for i = 1, 1000 do assert(not seen[t[i]]) seen[t[i]] = true end\n"
+        "say(t[1], t[500], t[1000])");
     CHECK(watched.error == "");
-    CHECK(watched.said == run("local t, n = {}, 0 for i = 1, 1000 do t[i] = i end\n"
-                              "table.sort(t, function(x, y) n = n + 1 return " +
-                              std::string(answer) + " end) say(t[1], t[500], t[1000])")
+    CHECK(watched.said == run_watched("local t, n = {}, 0 for i = 1, 1000 do t[i] = i end\n"
+                                      "table.sort(t, function(x, y) n = n + 1 return " +
+                                      std::string(answer) + " end) say(t[1], t[500], t[1000])")
                               .said);
   }
 }
 
 TEST_CASE("an adversary cannot make table.sort slow, so that it would ask the clock for a pivot") {
   // McIlroy: answers only what the order of questions has not fixed yet.
-  const Watched watched =
-      run("local n, t, val, solid, candidate, asked = 3000, {}, {}, 0, 0, 0\n"
-          "for i = 1, n do t[i] = i val[i] = n end\n"
-          "table.sort(t, function(x, y)\n"
-          "  asked = asked + 1\n"
-          "  if val[x] == n and val[y] == n then\n"
-          "    if x == candidate then val[x] = solid else val[y] = solid end\n"
-          "    solid = solid + 1\n"
-          "  end\n"
-          "  if val[x] == n then candidate = x elseif val[y] == n then candidate = y end\n"
-          "  return val[x] < val[y]\n"
-          "end)\n"
-          "say(asked < 3000 * 12)");
+  const Watched watched = run_watched(
+      "local n, t, val, solid, candidate, asked = 3000, {}, {}, 0, 0, 0\n"
+      "for i = 1, n do t[i] = i val[i] = n end\n"
+      "table.sort(t, function(x, y)\n"
+      "  asked = asked + 1\n"
+      "  if val[x] == n and val[y] == n then\n"
+      "    if x == candidate then val[x] = solid else val[y] = solid end\n"
+      "    solid = solid + 1\n"
+      "  end\n"
+      "  if val[x] == n then candidate = x elseif val[y] == n then candidate = y end\n"
+      "  return val[x] < val[y]\n"
+      "end)\n"
+      "say(asked < 3000 * 12)");
   CHECK(watched.error + watched.said == "true ");
 }
 
@@ -195,7 +195,8 @@ TEST_CASE("no address is told") {
   CHECK(said("say(('%s'):format({}))") == "table ");
   for (const char* format : {"%p", "%20p", "%-20p", "%%%p", "%d %p"}) {
     CAPTURE(format);
-    const std::string error = run("say(string.format('" + std::string(format) + "', 1, {}))").error;
+    const std::string error =
+        run_watched("say(string.format('" + std::string(format) + "', 1, {}))").error;
     CHECK(contains(error, "test.lua:1: string.format: %p is an address"));
   }
   for (const char* mistake :
@@ -203,7 +204,7 @@ TEST_CASE("no address is told") {
         "say(#say)", "string.format('%d', {})", "string.format('%q', {})", "table.unpack(say)",
         "local x = {} .. ''", "({})()", "say(nil .. {})", "assert(false, {})"}) {
     CAPTURE(mistake);
-    const std::string error = run(mistake).error;
+    const std::string error = run_watched(mistake).error;
     CHECK(error != "");
     CHECK_FALSE(contains(error, "0x"));
   }
@@ -218,7 +219,7 @@ TEST_CASE("pairs goes by the whole key, and refuses keys that have no order") {
              "for k, v in pairs(t) do say(v) end") == "1 2 3 ");
   for (const char* key : {"{}", "say", "table.sort"}) {
     CAPTURE(key);
-    CHECK(run("for k in pairs({[" + std::string(key) + "] = 1}) do end").error ==
+    CHECK(run_watched("for k in pairs({[" + std::string(key) + "] = 1}) do end").error ==
           "test.lua:1: pairs: keys must be numbers, strings or booleans");
   }
 }
@@ -241,6 +242,6 @@ TEST_CASE("lists are edited and joined as in any Lua") {
         "table.unpack({}, 1, 1e8)", "string.format('%')", "string.format('%y', 1)",
         "string.format('%d')", "string.upper({})", "table.concat({1}, {})"}) {
     CAPTURE(mistake);
-    CHECK(run(mistake).error.starts_with("test.lua:1: "));
+    CHECK(run_watched(mistake).error.starts_with("test.lua:1: "));
   }
 }

@@ -25,7 +25,7 @@ struct Spoken {
   std::string error;
 };
 
-Spoken run(const std::string& text, LuaState::Limits limits = {}) {
+Spoken run_saying(const std::string& text, LuaState::Limits limits = {}) {
   Spoken spoken;
   LuaState lua(limits);
   const auto say = [&](WordCall& call) {
@@ -66,9 +66,11 @@ TEST_CASE("a word that lacks memory ends the script") {
 }
 
 TEST_CASE("a script computes, loops and calls words") {
-  CHECK(run("local s = 0 for i = 1, 4 do s = s + i end say(s, math.max(3, 7))").said == "10 7 ");
-  CHECK(run("say(string.format('%.2f', 1/3), ('abc'):upper(), #'xy')").said == "0.33 ABC 2 ");
-  CHECK(run("local t = {3, 1, 2} table.sort(t) say(table.concat(t, ','))").said == "1,2,3 ");
+  CHECK(run_saying("local s = 0 for i = 1, 4 do s = s + i end say(s, math.max(3, 7))").said ==
+        "10 7 ");
+  CHECK(run_saying("say(string.format('%.2f', 1/3), ('abc'):upper(), #'xy')").said ==
+        "0.33 ABC 2 ");
+  CHECK(run_saying("local t = {3, 1, 2} table.sort(t) say(table.concat(t, ','))").said == "1,2,3 ");
 }
 
 TEST_CASE("what reaches outside, differs from run to run or cannot be interrupted is not there") {
@@ -76,67 +78,70 @@ TEST_CASE("what reaches outside, differs from run to run or cannot be interrupte
                            "debug", "package", "coroutine", "pcall", "xpcall", "setmetatable",
                            "getmetatable", "rawset", "rawget", "next", "collectgarbage", "utf8"}) {
     CAPTURE(name);
-    CHECK(contains(run(std::string("say(") + name + ")").error,
+    CHECK(contains(run_saying(std::string("say(") + name + ")").error,
                    "test.lua:1: unknown name '" + std::string(name) + "'; valid: "));
-    CHECK(contains(run(std::string("say(_G)")).error, "unknown name '_G'"));
+    CHECK(contains(run_saying(std::string("say(_G)")).error, "unknown name '_G'"));
   }
   for (const char* field : {"math.random", "math.randomseed", "string.rep", "string.find",
                             "string.gsub", "string.dump", "table.move"}) {
     CAPTURE(field);
-    CHECK(run(std::string("say(") + field + ")").said == "nil ");
+    CHECK(run_saying(std::string("say(") + field + ")").said == "nil ");
   }
-  CHECK(run("local s = 'x' say(s.rep)").said == "nil ");
-  CHECK(contains(run("say(('x'):rep(1e9))").error, "test.lua:1:"));
+  CHECK(run_saying("local s = 'x' say(s.rep)").said == "nil ");
+  CHECK(contains(run_saying("say(('x'):rep(1e9))").error, "test.lua:1:"));
 }
 
 TEST_CASE("compiled scripts are refused") {
-  CHECK(contains(run(std::string("\x1bLua\x54\x00", 6)).error,
+  CHECK(contains(run_saying(std::string("\x1bLua\x54\x00", 6)).error,
                  "test.lua: attempt to load a binary chunk"));
 }
 
 TEST_CASE("an unknown name is an error with its line and the names that there are") {
-  const std::string error = run("local x = 1\n\nsaay(x)").error;
+  const std::string error = run_saying("local x = 1\n\nsaay(x)").error;
   CHECK(contains(error, "test.lua:3: unknown name 'saay'; valid: "));
   CHECK(contains(error, "say"));
-  CHECK(contains(run("mine = 1\nsay(mien)").error, "mine"));
+  CHECK(contains(run_saying("mine = 1\nsay(mien)").error, "mine"));
 }
 
 TEST_CASE("a script makes globals of its own and cannot overwrite words") {
-  CHECK(run("total = 2 say(total + 1)").said == "3 ");
-  CHECK(run("function twice(x) return 2 * x end say(twice(4))").said == "8 ");
-  CHECK(run("say = 3").error == "test.lua:1: 'say' is a word of the language and cannot be set");
-  CHECK(contains(run("\nfunction pairs() end").error, "test.lua:2: 'pairs' is a word"));
+  CHECK(run_saying("total = 2 say(total + 1)").said == "3 ");
+  CHECK(run_saying("function twice(x) return 2 * x end say(twice(4))").said == "8 ");
+  CHECK(run_saying("say = 3").error ==
+        "test.lua:1: 'say' is a word of the language and cannot be set");
+  CHECK(contains(run_saying("\nfunction pairs() end").error, "test.lua:2: 'pairs' is a word"));
 }
 
 TEST_CASE("a mistake in grammar is an error with its line and the word") {
-  CHECK(run("local = 3").error == "test.lua:1: <name> expected near '='");
-  CHECK(contains(run("say(1)\nif true").error, "test.lua:2:"));
+  CHECK(run_saying("local = 3").error == "test.lua:1: <name> expected near '='");
+  CHECK(contains(run_saying("say(1)\nif true").error, "test.lua:2:"));
 }
 
 TEST_CASE("the error of a word is an error of the line that called it") {
-  CHECK(run("\nlocal function f() fail() end\nf()").error == "test.lua:2: no such luck");
-  CHECK(run("error('I give up')").error == "test.lua:1: I give up");
-  CHECK(run("error({})").error == "test.lua: error(table) was called");
-  CHECK(contains(run("local t\nsay(t.x)").error, "test.lua:2: attempt to index a nil value"));
+  CHECK(run_saying("\nlocal function f() fail() end\nf()").error == "test.lua:2: no such luck");
+  CHECK(run_saying("error('I give up')").error == "test.lua:1: I give up");
+  CHECK(run_saying("error({})").error == "test.lua: error(table) was called");
+  CHECK(
+      contains(run_saying("local t\nsay(t.x)").error, "test.lua:2: attempt to index a nil value"));
 }
 
 TEST_CASE("endless recursion is an error with its line") {
-  CHECK(contains(run("local function f()\n  return 1 + f()\nend\nf()").error,
+  CHECK(contains(run_saying("local function f()\n  return 1 + f()\nend\nf()").error,
                  "test.lua:2: stack overflow"));
 }
 
 TEST_CASE("a script that wants too much memory is stopped") {
   const LuaState::Limits limits{.memory = std::size_t{8} << 20};
-  CHECK(run("local t = {}\nlocal i = 0\nwhile true do\n  i = i + 1\n  t[i] = 'x' .. i\nend", limits)
+  CHECK(run_saying("local t = {}\nlocal i = 0\nwhile true do\n  i = i + 1\n  t[i] = 'x' .. i\nend",
+                   limits)
             .error.starts_with("test.lua:"));
-  CHECK(contains(run("local t = {} while true do t[#t + 1] = {} end", limits).error, " MB"));
-  CHECK(contains(run("local s = 'x' while true do s = s .. s end", limits).error,
+  CHECK(contains(run_saying("local t = {} while true do t[#t + 1] = {} end", limits).error, " MB"));
+  CHECK(contains(run_saying("local s = 'x' while true do s = s .. s end", limits).error,
                  "test.lua:1: the script holds more than 6 MB"));
-  CHECK(contains(
-      run("local s = 'x' while true do s = s .. s .. s .. s end", {.memory = std::size_t{2} << 20})
-          .error,
-      "test.lua: the script needs more than 2 MB"));
-  CHECK(run("local t = {} for i = 1, 1000 do t[i] = i end say(#t)", limits).said == "1000 ");
+  CHECK(contains(run_saying("local s = 'x' while true do s = s .. s .. s .. s end",
+                            {.memory = std::size_t{2} << 20})
+                     .error,
+                 "test.lua: the script needs more than 2 MB"));
+  CHECK(run_saying("local t = {} for i = 1, 1000 do t[i] = i end say(#t)", limits).said == "1000 ");
 }
 
 TEST_CASE("a script is stopped wherever it is, and what the watch throws comes out") {
@@ -155,27 +160,28 @@ TEST_CASE("a script is stopped wherever it is, and what the watch throws comes o
 }
 
 TEST_CASE("pairs goes through a table in the order of its keys") {
-  CHECK(run("for k, v in pairs({b = 1, a = 2, c = 3, 10, 20}) do say(k, v) end").said ==
+  CHECK(run_saying("for k, v in pairs({b = 1, a = 2, c = 3, 10, 20}) do say(k, v) end").said ==
         "1 10 2 20 a 2 b 1 c 3 ");
-  CHECK(run("local t = {x = 1, y = 2} for k in pairs(t) do t[k] = nil end\n"
-            "for k in pairs(t) do say(k) end say('end')")
+  CHECK(run_saying("local t = {x = 1, y = 2} for k in pairs(t) do t[k] = nil end\n"
+                   "for k in pairs(t) do say(k) end say('end')")
             .said == "end ");
 }
 
 TEST_CASE("tostring tells no addresses") {
-  CHECK(run("say(tostring({}), tostring(say), tostring(1.5), tostring(nil))").said ==
+  CHECK(run_saying("say(tostring({}), tostring(say), tostring(1.5), tostring(nil))").said ==
         "table function 1.5 nil ");
 }
 
 TEST_CASE("every message begins with the file, and shows no control characters") {
-  CHECK(run("error('a\\0b\\27[31mred\\nline')").error == "test.lua:1: a\\x00b\\x1b[31mred\\nline");
-  CHECK(run("error('no place', 0)").error == "test.lua:1: no place");
-  CHECK(run("error(nil)").error == "test.lua: error(nil) was called");
-  CHECK(run("local x = " + std::string(300, '(')).error.starts_with("test.lua:"));
-  CHECK(run("local x = '\x1b").error.starts_with("test.lua:1: unfinished string"));
-  CHECK_FALSE(contains(run("local x = '\x1b").error, "\x1b"));
-  CHECK(run("local s = 'x' for i = 1, 20 do s = s .. s end error(s)").error.size() < 5000);
-  CHECK(run("for i = 1, 10000 do _ENV['name' .. i] = i end say(nope)").error.size() < 5000);
+  CHECK(run_saying("error('a\\0b\\27[31mred\\nline')").error ==
+        "test.lua:1: a\\x00b\\x1b[31mred\\nline");
+  CHECK(run_saying("error('no place', 0)").error == "test.lua:1: no place");
+  CHECK(run_saying("error(nil)").error == "test.lua: error(nil) was called");
+  CHECK(run_saying("local x = " + std::string(300, '(')).error.starts_with("test.lua:"));
+  CHECK(run_saying("local x = '\x1b").error.starts_with("test.lua:1: unfinished string"));
+  CHECK_FALSE(contains(run_saying("local x = '\x1b").error, "\x1b"));
+  CHECK(run_saying("local s = 'x' for i = 1, 20 do s = s .. s end error(s)").error.size() < 5000);
+  CHECK(run_saying("for i = 1, 10000 do _ENV['name' .. i] = i end say(nope)").error.size() < 5000);
   LuaState lua;
   const std::string long_name =
       "/a/folder/with/a/name/that/is/far/too/long/for/a/message/of/lua.lua";

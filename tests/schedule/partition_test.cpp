@@ -17,7 +17,7 @@ using namespace tetmend::test;
 
 namespace {
 
-TetMesh cube() {
+TetMesh large_cube() {
   return TetMesh::sorted(kuhn_cube(14, 0.3, 1));
 }
 
@@ -30,7 +30,7 @@ bool crosses(const TetMesh& mesh, const Partition& partition, TetHandle t) {
 }  // namespace
 
 TEST_CASE("each vertex has a block, and blocks have about the same number of vertices") {
-  const TetMesh mesh = cube();
+  const TetMesh mesh = large_cube();
   for (const unsigned shift : {0u, 1u, 5u}) {
     for (const std::size_t blocks : {std::size_t{2}, std::size_t{7}, std::size_t{16}}) {
       CAPTURE(shift);
@@ -50,7 +50,7 @@ TEST_CASE("each vertex has a block, and blocks have about the same number of ver
 }
 
 TEST_CASE("a tet that crosses a border of one partition rarely crosses one of all the others") {
-  const TetMesh mesh = cube();
+  const TetMesh mesh = large_cube();
   constexpr unsigned kShifts = 6;
   std::vector<Partition> partitions;
   for (unsigned shift = 0; shift < kShifts; ++shift) partitions.emplace_back(mesh, 4, shift);
@@ -65,7 +65,7 @@ TEST_CASE("a tet that crosses a border of one partition rarely crosses one of al
 }
 
 TEST_CASE("a new vertex joins the block of its place") {
-  TetMesh mesh = cube();
+  TetMesh mesh = large_cube();
   Partition partition(mesh, 8, 1);
   Workspace workspace(mesh);
   const VertexHandle near = live_vertices(mesh)[100];

@@ -19,16 +19,14 @@
 
 #include "kernel/formats/mesh_io.h"
 #include "kernel/integrity.h"
+#include "tests/support/assets.h"
+#include "tests/support/registry.h"
 #include "tests/support/zoo.h"
 
 using namespace tetmend;
 using namespace tetmend::test;
 
 namespace {
-
-const std::filesystem::path kSource = TETMEND_SOURCE_DIR;
-
-const Registry kRegistry = Registry::builtin();
 
 struct NamedPass {
   std::string name;
@@ -42,12 +40,12 @@ const std::vector<NamedPass> kPasses = {
     {"insert_points", [](Run& run) { insert_points(run, {}); }},
 };
 
-using Face = std::array<VertexHandle, 3>;
+using FaceVertices = std::array<VertexHandle, 3>;
 
 /// What every pass keeps: the faces of boundary and constraints with their points, and the volume
 /// of each region.
 struct Kept {
-  std::vector<std::tuple<Face, Label>> faces;
+  std::vector<std::tuple<FaceVertices, Label>> faces;
   std::vector<std::tuple<VertexHandle, double, double, double>> points;
   std::map<Label, long double> volumes;
   long double absolute = 0;
@@ -63,7 +61,7 @@ Kept kept(const TetMesh& mesh) {
     k.absolute += std::abs(six);
     for (unsigned f = 0; f < 4; ++f) {
       if (!mesh.is_boundary(HalfFace(t, f)) && !mesh.is_constrained(HalfFace(t, f))) continue;
-      Face face = mesh.vertices(HalfFace(t, f));
+      FaceVertices face = mesh.vertices(HalfFace(t, f));
       std::rotate(face.begin(), std::min_element(face.begin(), face.end()), face.end());
       k.faces.emplace_back(face, mesh.label(t));
     }
@@ -77,7 +75,7 @@ Kept kept(const TetMesh& mesh) {
 }
 
 /// Ascending, computed from the points.
-std::vector<Quality> qualities(const TetMesh& mesh) {
+std::vector<Quality> qualities_from_points(const TetMesh& mesh) {
   std::vector<Quality> all;
   for (const TetHandle t : live_tets(mesh)) all.push_back(mesh.evaluate(mesh.vertices(t)));
   std::sort(all.begin(), all.end());
@@ -91,7 +89,7 @@ bool no_worse(std::vector<Quality> now, std::vector<Quality> before) {
   return now >= before;
 }
 
-void check_kept(const TetMesh& mesh, const Kept& before) {
+void check_surface_kept(const TetMesh& mesh, const Kept& before) {
   CHECK(to_string(check_integrity(mesh)) == "");
   const Kept now = kept(mesh);
   CHECK(now.faces == before.faces);
@@ -103,41 +101,41 @@ void check_kept(const TetMesh& mesh, const Kept& before) {
 }
 
 /// Meshes of the project, then the zoo.
-std::vector<NamedMesh> meshes(bool with_bracket) {
+std::vector<NamedMesh> meshes_and_zoo(bool with_bracket) {
   std::vector<NamedMesh> all;
   for (const char* file : {"two_materials.mesh", "sheet.mesh", "bracket.meshb"}) {
     if (std::string(file) == "bracket.meshb" && !with_bracket) continue;
-    all.push_back({file, read_mesh(kSource / "assets/meshes" / file)});
+    all.push_back({file, read_mesh(asset(file))});
   }
   for (NamedMesh& mesh : zoo()) all.push_back(std::move(mesh));
   return all;
 }
 
 MeshData two_materials() {
-  return read_mesh(kSource / "assets/meshes/two_materials.mesh");
+  return read_mesh(asset("two_materials.mesh"));
 }
 
 }  // namespace
 
 TEST_CASE("no pass lowers the quality vector or touches what is fixed") {
-  for (const NamedMesh& named : meshes(true)) {
+  for (const NamedMesh& named : meshes_and_zoo(true)) {
     CAPTURE(named.name);
     for (const NamedPass& pass : kPasses) {
       CAPTURE(pass.name);
       TetMesh mesh(named.data);
       const Kept before = kept(mesh);
-      const auto vector = qualities(mesh);
+      const auto vector = qualities_from_points(mesh);
       const std::size_t not_positive = count_not_positive(mesh);
       Run run(mesh, kRegistry);
       pass.work(run);
-      check_kept(mesh, before);
-      CHECK(no_worse(qualities(mesh), vector));
+      check_surface_kept(mesh, before);
+      CHECK(no_worse(qualities_from_points(mesh), vector));
       CHECK(count_not_positive(mesh) <= not_positive);
       REQUIRE(run.records.size() == 1);
       CHECK(run.records[0].name == pass.name);
-      const bool changed = qualities(mesh) != vector;
+      const bool changed = qualities_from_points(mesh) != vector;
       CHECK((run.records[0].accepted() > 0) == changed);
-      CHECK(run.records[0].after.q_worst == doctest::Approx(qualities(mesh).front()));
+      CHECK(run.records[0].after.q_worst == doctest::Approx(qualities_from_points(mesh).front()));
     }
   }
 }
@@ -159,7 +157,7 @@ TEST_CASE("on a mesh with many slivers each pass finds something to improve") {
 }
 
 TEST_CASE("passes one after the other keep what is fixed") {
-  for (const NamedMesh& named : meshes(false)) {
+  for (const NamedMesh& named : meshes_and_zoo(false)) {
     CAPTURE(named.name);
     TetMesh mesh(named.data);
     const Kept before = kept(mesh);
@@ -172,12 +170,12 @@ TEST_CASE("passes one after the other keep what is fixed") {
         q_worst = quality_indicators(mesh).q_worst;
       }
     }
-    check_kept(mesh, before);
+    check_surface_kept(mesh, before);
   }
 }
 
 TEST_CASE("every triangle of a sheet inside the volume survives each pass") {
-  const MeshData data = read_mesh(kSource / "assets/meshes/sheet.mesh");
+  const MeshData data = read_mesh(asset("sheet.mesh"));
   const auto sheet = [](const TetMesh& mesh) {
     std::size_t count = 0;
     for (const TetHandle t : live_tets(mesh)) {
@@ -325,7 +323,7 @@ TEST_CASE(
 }
 
 TEST_CASE("one reconnection pass: recursion beats no recursion and the classic operators") {
-  std::vector<std::filesystem::path> files = {kSource / "assets/meshes/bracket.meshb"};
+  std::vector<std::filesystem::path> files = {asset("bracket.meshb")};
   const std::filesystem::path tire = kSource / "../shared/meshes/tire.mesh";
   if (std::filesystem::exists(tire)) {
     files.push_back(tire);
@@ -357,7 +355,7 @@ TEST_CASE(
     "a polish raises the mean ratio, and no tet falls below the goal or gets worse below it") {
   for (const char* name : {"folded_sheet.mesh", "two_materials.mesh"}) {
     CAPTURE(name);
-    TetMesh mesh = TetMesh::sorted(read_mesh(kSource / "assets/meshes" / name));
+    TetMesh mesh = TetMesh::sorted(read_mesh(asset(name)));
     Run run(mesh, kRegistry);
     local_reconnection(run);
     smooth(run);

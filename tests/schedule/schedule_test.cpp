@@ -15,21 +15,16 @@
 #include "kernel/formats/mesh_io.h"
 #include "kernel/integrity.h"
 #include "kernel/wanted_lengths.h"
+#include "tests/support/assets.h"
+#include "tests/support/registry.h"
 #include "tests/support/renumbered.h"
+#include "tests/support/stopper.h"
 #include "tests/support/zoo.h"
 
 using namespace tetmend;
 using namespace tetmend::test;
 
 namespace {
-
-const std::filesystem::path kSource = TETMEND_SOURCE_DIR;
-
-const Registry kRegistry = Registry::builtin();
-
-MeshData asset(const std::string& file) {
-  return read_mesh(kSource / "assets/meshes" / file);
-}
 
 /// Coordinates of the boundary and constrained faces, in an order that does not depend on handles.
 std::vector<std::vector<double>> surface(const TetMesh& mesh) {
@@ -51,26 +46,12 @@ std::vector<std::vector<double>> surface(const TetMesh& mesh) {
   return faces;
 }
 
-/// Stops the run after so many reports.
-struct Stopper final : ProgressListener {
-  explicit Stopper(int reports) : left(reports) {}
-  void progress(std::string_view, unsigned, double share) override {
-    CHECK(share >= 0);
-    CHECK(share <= 1);
-    if (--left <= 0) cancel = true;
-  }
-  void pass_done(std::string_view, unsigned, const QualityIndicators&) override { ++passes; }
-  int left;
-  int passes = 0;
-  std::atomic<bool> cancel = false;
-};
-
 }  // namespace
 
 TEST_CASE("meshes full of slivers come out with few bad tets, the surface untouched") {
   for (const std::string file : {"two_materials.mesh", "sheet.mesh", "bracket.meshb"}) {
     CAPTURE(file);
-    TetMesh mesh(asset(file));
+    TetMesh mesh(read_mesh(asset(file)));
     const MeshStatistics before = compute_statistics(mesh);
     const auto surface_before = surface(mesh);
     Run run(mesh, kRegistry);
@@ -92,8 +73,8 @@ TEST_CASE("meshes full of slivers come out with few bad tets, the surface untouc
 
 TEST_CASE("the same mesh improved twice from the start gives the same bits") {
   for (const char* file : {"two_materials.mesh", "sheet.mesh"}) {
-    TetMesh first(asset(file));
-    TetMesh second(asset(file));
+    TetMesh first(read_mesh(asset(file)));
+    TetMesh second(read_mesh(asset(file)));
     Run one(first, kRegistry);
     Run two(second, kRegistry);
     improve(one);
@@ -104,7 +85,7 @@ TEST_CASE("the same mesh improved twice from the start gives the same bits") {
 }
 
 TEST_CASE("a second improvement of the result changes little") {
-  TetMesh mesh(asset("two_materials.mesh"));
+  TetMesh mesh(read_mesh(asset("two_materials.mesh")));
   Run first(mesh, kRegistry);
   improve(first);
   const MeshStatistics once = compute_statistics(mesh);
@@ -118,7 +99,7 @@ TEST_CASE("a second improvement of the result changes little") {
 }
 
 TEST_CASE("a run that is cancelled before it begins does nothing") {
-  TetMesh mesh(asset("two_materials.mesh"));
+  TetMesh mesh(read_mesh(asset("two_materials.mesh")));
   const TetMesh before = mesh;
   const std::atomic<bool> cancel = true;
   Run run(mesh, kRegistry);
@@ -130,7 +111,7 @@ TEST_CASE("a run that is cancelled before it begins does nothing") {
 
 TEST_CASE("a run that is cancelled on its way stops soon with a sound and no worse mesh") {
   for (const int reports : {1, 3, 6, 12}) {
-    TetMesh mesh(asset("two_materials.mesh"));
+    TetMesh mesh(read_mesh(asset("two_materials.mesh")));
     const auto surface_before = surface(mesh);
     const double q_worst = quality_indicators(mesh).q_worst;
     Stopper stopper(reports);
@@ -208,7 +189,7 @@ TEST_CASE("every builtin schedule improves a mesh, keeps its surface and ends") 
     for (const ScheduleParameter& parameter : schedule.describe().parameters) {
       CHECK(parameter.help.size() > 5);
     }
-    TetMesh mesh(asset("two_materials.mesh"));
+    TetMesh mesh(read_mesh(asset("two_materials.mesh")));
     const auto surface_before = surface(mesh);
     const MeshStatistics before = compute_statistics(mesh);
     // One that asks for lengths gets about those that there are.
@@ -242,14 +223,14 @@ TEST_CASE("schedules are found by name and by file, and what is missing is named
 }
 
 TEST_CASE("no more rounds are done than allowed") {
-  TetMesh mesh(asset("two_materials.mesh"));
+  TetMesh mesh(read_mesh(asset("two_materials.mesh")));
   Run run(mesh, kRegistry);
   improve(run, Schedule::builtin("shell"), {{"max_rounds", "1"}});
   CHECK(run.round == 1);
 }
 
 TEST_CASE("thorough leaves better meshes than the default where the default leaves bad tets") {
-  const MeshData folded = asset("folded_sheet.mesh");
+  const MeshData folded = read_mesh(asset("folded_sheet.mesh"));
   const auto improved = [](const MeshData& data, const Schedule& schedule) {
     TetMesh mesh(data);
     const auto surface_before = surface(mesh);
@@ -281,7 +262,7 @@ TEST_CASE("thorough leaves better meshes than the default where the default leav
 
 TEST_CASE("thorough ends at its goal") {
   const auto rounds_to = [](double goal) {
-    TetMesh mesh(asset("folded_sheet.mesh"));
+    TetMesh mesh(read_mesh(asset("folded_sheet.mesh")));
     mesh.set_standard(Standard(Goal::symmetric(goal)));
     Run run(mesh, kRegistry);
     improve(run, Schedule::builtin("thorough"));

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
-// The language of schedules: what words do, what they refuse, and that the reference is true.
+// The language of schedules: what words do, what they refuse, and how scripts are stopped.
 #include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <cmath>
 #include <numbers>
 #include <numeric>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -17,9 +16,9 @@
 #include "kernel/integrity.h"
 #include "kernel/statistics.h"
 #include "schedule/limit/surface_limit.h"
-#include "schedule/reference.h"
 #include "schedule/schedule.h"
-#include "schedule/words.h"
+#include "tests/schedule/script_outcome.h"
+#include "tests/support/registry.h"
 #include "tests/support/text.h"
 #include "tests/support/zoo.h"
 
@@ -28,36 +27,12 @@ using namespace tetmend::test;
 
 namespace {
 
-const Registry kRegistry = Registry::builtin();
-
-struct Outcome {
-  TetMesh mesh;
-  std::vector<PassRecord> records;
-  std::vector<std::string> notes;
-  std::string error;
-  unsigned round = 0;
-};
-
-Outcome run(const std::string& script, const ScheduleSettings& settings = {}) {
-  Outcome outcome{TetMesh(delaunay_ball(150, 7)), {}, {}, {}, 0};
-  Run run(outcome.mesh, kRegistry);
-  try {
-    improve(run, Schedule("test.lua", script), settings);
-  } catch (const Error& error) {
-    outcome.error = error.what();
-  }
-  outcome.records = run.records;
-  outcome.notes = run.notes;
-  outcome.round = run.round;
-  return outcome;
-}
-
 std::string note(const std::string& expression) {
-  const Outcome outcome = run("log(" + expression + ")");
+  const ScriptOutcome outcome = run_script("log(" + expression + ")");
   return outcome.notes.empty() ? outcome.error : outcome.notes.front();
 }
 
-std::vector<std::string> pass_names(const Outcome& outcome) {
+std::vector<std::string> pass_names(const ScriptOutcome& outcome) {
   std::vector<std::string> names;
   for (const PassRecord& pass : outcome.records) names.push_back(pass.name);
   return names;
@@ -66,9 +41,9 @@ std::vector<std::string> pass_names(const Outcome& outcome) {
 }  // namespace
 
 TEST_CASE("a script makes its passes in order and the mesh gets better") {
-  const Outcome outcome =
-      run("begin_round() local_reconnection{} smooth{} suppress_points{} insert_points{}\n"
-          "apply('flip_2_3', {on = 'all'})");
+  const ScriptOutcome outcome = run_script(
+      "begin_round() local_reconnection{} smooth{} suppress_points{} insert_points{}\n"
+      "apply('flip_2_3', {on = 'all'})");
   CHECK(outcome.error == "");
   CHECK(pass_names(outcome) == std::vector<std::string>{"local_reconnection", "smooth",
                                                         "suppress_points", "insert_points",
@@ -83,7 +58,7 @@ TEST_CASE("words do what the passes in C++ do") {
     TetMesh mesh(delaunay_ball(150, 7));
     Run by_hand(mesh, kRegistry);
     pass(by_hand);
-    const Outcome outcome = run(script);
+    const ScriptOutcome outcome = run_script(script);
     CAPTURE(script);
     CHECK(outcome.error == "");
     CHECK(outcome.mesh == mesh);
@@ -136,7 +111,7 @@ TEST_CASE("words do what the passes in C++ do") {
 }
 
 TEST_CASE("a pass tells how many attempts it accepted and made") {
-  const Outcome outcome = run("log(smooth{cycles = 1})");
+  const ScriptOutcome outcome = run_script("log(smooth{cycles = 1})");
   REQUIRE(outcome.notes.size() == 1);
   CHECK(outcome.notes[0] == std::to_string(outcome.records[0].accepted()) + " " +
                                 std::to_string(outcome.records[0].attempts()));
@@ -152,13 +127,14 @@ TEST_CASE("quality tells the figures of the mesh, the costly ones until the next
   CHECK(std::stod(note("quality().theta_min")) == doctest::Approx(truth.theta_min));
   CHECK(std::stod(note("quality().theta_max")) == doctest::Approx(truth.theta_max));
   CHECK(std::stod(note("quality().lambda")) == doctest::Approx(truth.lambda));
-  CHECK(run("local q = quality() local theta = q.theta_min smooth{} log(q.theta_min == theta)")
-            .notes.front() == "true");
-  CHECK(contains(run("local q = quality() smooth{}\nlog(q.lambda)").error,
+  CHECK(
+      run_script("local q = quality() local theta = q.theta_min smooth{} log(q.theta_min == theta)")
+          .notes.front() == "true");
+  CHECK(contains(run_script("local q = quality() smooth{}\nlog(q.lambda)").error,
                  "test.lua:2: quality(): lambda was not read before the next pass"));
-  CHECK(contains(run("log(quality().n_bat)").error,
+  CHECK(contains(run_script("log(quality().n_bat)").error,
                  "quality() has no 'n_bat'; valid: date, goal_max, "));
-  const Outcome later = run("smooth{} log(quality().n_bad)");
+  const ScriptOutcome later = run_script("smooth{} log(quality().n_bad)");
   CHECK(later.notes.front() == std::to_string(quality_indicators(later.mesh).n_bad));
 }
 
@@ -166,9 +142,10 @@ TEST_CASE("'since' selects tets around which something has changed") {
   const std::string changes = "local date = quality().date\n";
   const std::string apply =
       "log(select(2, apply('smoothing', {on = {below = 100, since = date}})))";
-  CHECK(run(changes + apply).notes.front() == "0");
-  const Outcome some = run(changes + "smooth{on = {worst = 1}, cycles = 1}\n" + apply);
-  const Outcome all = run("smooth{on = {worst = 1}, cycles = 1}\nlocal date = 0\n" + apply);
+  CHECK(run_script(changes + apply).notes.front() == "0");
+  const ScriptOutcome some = run_script(changes + "smooth{on = {worst = 1}, cycles = 1}\n" + apply);
+  const ScriptOutcome all =
+      run_script("smooth{on = {worst = 1}, cycles = 1}\nlocal date = 0\n" + apply);
   CHECK(some.records[0].accepted() == all.records[0].accepted());
   REQUIRE(some.records[0].accepted() > 0);
   CHECK(std::stoi(some.notes.front()) > 0);
@@ -238,14 +215,14 @@ TEST_CASE(
     CAPTURE(script);
     std::string second_line = "\n";
     second_line += script;
-    const Outcome outcome = run(second_line);
+    const ScriptOutcome outcome = run_script(second_line);
     CHECK(outcome.error.starts_with("test.lua:2: "));
     CHECK_MESSAGE(contains(outcome.error, message), outcome.error);
   }
 }
 
 TEST_CASE("an error on the way leaves a sound mesh") {
-  const Outcome outcome = run("local_reconnection{} smoth{}");
+  const ScriptOutcome outcome = run_script("local_reconnection{} smoth{}");
   CHECK(contains(outcome.error, "smoth"));
   CHECK(outcome.records.size() == 1);
   CHECK(check_integrity(outcome.mesh).empty());
@@ -258,17 +235,20 @@ TEST_CASE("parameters have defaults, and settings of the right type and range re
       "local on = parameter{'on', default = true}\n"
       "local how = parameter{'how', choices = {'slow', 'fast'}}\n"
       "log(n, x, on, how)";
-  CHECK(run(script).notes.front() == "3 0.5 true slow");
-  CHECK(run(script, {{"n", "7"}, {"x", "1e-1"}, {"on", "false"}, {"how", "fast"}}).notes.front() ==
-        "7 0.1 false fast");
-  CHECK(run(script, {{"n", "7"}, {"n", "8"}}).notes.front() == "8 0.5 true slow");
-  CHECK(contains(run(script, {{"m", "7"}}).error, "has no parameter 'm'; valid: n, x, on, how"));
-  CHECK(contains(run(script, {{"n", "10"}}).error, "n = 10 is outside 1 to 9"));
-  CHECK(contains(run(script, {{"n", "2.5"}}).error, "n = 2.5 is not a whole number"));
-  CHECK(contains(run(script, {{"n", "two"}}).error, "n must be a number from 1 to 9, is 'two'"));
-  CHECK(contains(run(script, {{"on", "1"}}).error, "on = 1: valid: true or false"));
-  CHECK(contains(run(script, {{"how", "soon"}}).error, "how = soon: valid: slow, fast"));
-  CHECK(contains(run("local x = 1", {{"m", "7"}}).error, "has no parameter 'm'; valid: none"));
+  CHECK(run_script(script).notes.front() == "3 0.5 true slow");
+  CHECK(run_script(script, {{"n", "7"}, {"x", "1e-1"}, {"on", "false"}, {"how", "fast"}})
+            .notes.front() == "7 0.1 false fast");
+  CHECK(run_script(script, {{"n", "7"}, {"n", "8"}}).notes.front() == "8 0.5 true slow");
+  CHECK(contains(run_script(script, {{"m", "7"}}).error,
+                 "has no parameter 'm'; valid: n, x, on, how"));
+  CHECK(contains(run_script(script, {{"n", "10"}}).error, "n = 10 is outside 1 to 9"));
+  CHECK(contains(run_script(script, {{"n", "2.5"}}).error, "n = 2.5 is not a whole number"));
+  CHECK(contains(run_script(script, {{"n", "two"}}).error,
+                 "n must be a number from 1 to 9, is 'two'"));
+  CHECK(contains(run_script(script, {{"on", "1"}}).error, "on = 1: valid: true or false"));
+  CHECK(contains(run_script(script, {{"how", "soon"}}).error, "how = soon: valid: slow, fast"));
+  CHECK(
+      contains(run_script("local x = 1", {{"m", "7"}}).error, "has no parameter 'm'; valid: none"));
 }
 
 TEST_CASE("a schedule describes itself without a mesh, up to its first pass") {
@@ -367,19 +347,20 @@ TEST_CASE("a script learns what the surface allows, and what holds its bad tets"
 }
 
 TEST_CASE("a script does what a built-in schedule does, with the parameters that it names") {
-  const auto same = [](const Outcome& a, const Outcome& b) {
+  const auto same = [](const ScriptOutcome& a, const ScriptOutcome& b) {
     return a.error.empty() && pass_names(a) == pass_names(b) && a.round == b.round &&
            a.mesh.tet_count() == b.mesh.tet_count();
   };
   const std::string shell(Schedule::builtin("shell").text());
-  CHECK(same(run("run_schedule('shell')"), run(shell)));
-  const Outcome once = run("run_schedule('shell', {max_rounds = 1, last_sweeps = 0})");
-  CHECK(same(once, run(shell, {{"max_rounds", "1"}, {"last_sweeps", "0"}})));
+  CHECK(same(run_script("run_schedule('shell')"), run_script(shell)));
+  const ScriptOutcome once = run_script("run_schedule('shell', {max_rounds = 1, last_sweeps = 0})");
+  CHECK(same(once, run_script(shell, {{"max_rounds", "1"}, {"last_sweeps", "0"}})));
   CHECK(once.round == 1);
-  CHECK(contains(run("run_schedule('grummp', {mode = 'x'})").error, "has no parameter 'mode'"));
-  CHECK(contains(run("run_schedule('shell', {max_rounds = 0.5})").error, "max_rounds"));
-  CHECK(contains(run("run_schedule('shell', {4})").error, "named parameters only"));
-  CHECK(contains(run("run_schedule('test.lua')").error, "there is no schedule 'test.lua'"));
+  CHECK(contains(run_script("run_schedule('grummp', {mode = 'x'})").error,
+                 "has no parameter 'mode'"));
+  CHECK(contains(run_script("run_schedule('shell', {max_rounds = 0.5})").error, "max_rounds"));
+  CHECK(contains(run_script("run_schedule('shell', {4})").error, "named parameters only"));
+  CHECK(contains(run_script("run_schedule('test.lua')").error, "there is no schedule 'test.lua'"));
 }
 
 TEST_CASE("after hold_worst() no angle gets worse than the worst of the mesh was then") {
@@ -398,66 +379,12 @@ TEST_CASE("after hold_worst() no angle gets worse than the worst of the mesh was
   CHECK(admits_less(work));
   CHECK_FALSE(admits_less(work + "hold_worst()"));
   CHECK_FALSE(admits_less(work + "hold_worst() judge_by{measure = 'sine'} goal{min = 20}"));
-  CHECK(contains(run("hold_worst{1}").error, "hold_worst takes nothing"));
+  CHECK(contains(run_script("hold_worst{1}").error, "hold_worst takes nothing"));
 }
 
 TEST_CASE("scripts see the operators that are registered") {
   CHECK(note("#operators()") == std::to_string(kRegistry.operators().size()));
   CHECK(note("operators()[1]") == std::string(kRegistry.operators()[0]->name));
-}
-
-TEST_CASE("every word of the reference exists and takes every argument that it names") {
-  std::set<std::string> names;
-  for (const WordInfo& word : schedule_words()) {
-    CAPTURE(word.name);
-    names.insert(std::string(word.name));
-    CHECK(contains(run("nonsense()").error, std::string(word.name)));
-    const bool is_pass = !word.fields.empty();
-    if (!is_pass) continue;
-    const std::string call =
-        std::string(word.name) + (word.name == "apply" ? "('smoothing', {" : "({");
-    for (const WordField& field : word.fields) {
-      CHECK(run(call + std::string(field.name) + " = " + std::string(field.initial) + "})").error ==
-            "");
-    }
-    for (const ParameterSpec& spec : word.numbers) {
-      const bool flag = spec.kind == ParameterSpec::Kind::flag;
-      const std::string value = flag ? "true" : std::to_string(static_cast<int>(spec.initial));
-      CHECK(run(call + std::string(spec.name) + " = " + value + "})").error == "");
-    }
-  }
-  // Nothing is missing in it.
-  const std::string error = run("nonsense()").error;
-  const std::set<std::string> library = {"assert",   "error",    "ipairs", "math",
-                                         "pairs",    "select",   "string", "table",
-                                         "tonumber", "tostring", "type"};
-  std::string list = error.substr(error.find("valid: ") + 7) + ", ";
-  for (std::size_t end = 0; (end = list.find(", ")) != std::string::npos; list.erase(0, end + 2)) {
-    const std::string name = list.substr(0, end);
-    CHECK_MESSAGE((names.contains(name) || library.contains(name)), name);
-  }
-}
-
-TEST_CASE("a word takes the parameters of its operators and no others") {
-  for (const WordInfo& word : schedule_words()) {
-    if (word.operators.empty()) continue;
-    CAPTURE(word.name);
-    std::string operators = std::string(word.operators) + " ";
-    for (std::size_t end = 0; (end = operators.find(' ')) != std::string::npos;
-         operators.erase(0, end + 1)) {
-      for (const ParameterSpec& spec : kRegistry.find(operators.substr(0, end)).parameters) {
-        const bool flag = spec.kind == ParameterSpec::Kind::flag;
-        const std::string value = flag ? "false" : std::to_string(spec.initial);
-        const std::string script = std::string(word.name) + "{" + std::string(spec.name) + " = " +
-                                   (spec.kind == ParameterSpec::Kind::integer
-                                        ? std::to_string(static_cast<int>(spec.initial))
-                                        : value) +
-                                   "}";
-        CAPTURE(script);
-        CHECK(run(script).error == "");
-      }
-    }
-  }
 }
 
 TEST_CASE("a script that makes much of little for a word is stopped, also while it is described") {
@@ -470,7 +397,7 @@ TEST_CASE("a script that makes much of little for a word is stopped, also while 
     for (const char* call : {"apply(t)", "smooth{on = t}", "attempt('smoothing', t)",
                              "run_schedule('shell', t)", "is_progress(t, t)"}) {
       CAPTURE(call);
-      CHECK(contains(run(bomb + "begin_round() " + call).error, "take more than 64 MB"));
+      CHECK(contains(run_script(bomb + "begin_round() " + call).error, "take more than 64 MB"));
     }
     for (const char* call : {"description(t)", "parameter{'p', choices = t}", "parameter(t)"}) {
       CAPTURE(call);
@@ -486,8 +413,8 @@ TEST_CASE("a script that makes much of little for a word is stopped, also while 
 }
 
 TEST_CASE("notes come to an end, and show no control characters") {
-  const Outcome flood =
-      run("local s = 'x' for i = 1, 16 do s = s .. s end while true do log(s) end");
+  const ScriptOutcome flood =
+      run_script("local s = 'x' for i = 1, 16 do s = s .. s end while true do log(s) end");
   CHECK(contains(flood.error, "take more than 64 MB"));
   std::size_t bytes = 0;
   for (const std::string& text : flood.notes) bytes += text.size();
@@ -501,13 +428,6 @@ TEST_CASE("notes come to an end, and show no control characters") {
   CHECK(info.description == "a\\x07b");
   CHECK(info.parameters.at(0).help == "\\x1b[1m");
   CHECK_THROWS_AS(Schedule("test.lua", "parameter{'p', choices = {'a\\27'}}").describe(), Error);
-}
-
-TEST_CASE("passes without end come to an end") {
-  for (const char* pass : {"smooth{}", "attempt('smoothing', {0})"}) {
-    CAPTURE(pass);
-    CHECK(contains(run(std::string("while true do ") + pass + " end").error, "records of passes"));
-  }
 }
 
 TEST_CASE("a script that never comes to a pass can be described, wherever it spends its time") {

@@ -14,7 +14,7 @@ using namespace tetmend::test;
 namespace {
 
 /// The trace of a script on a shell of three tets around the edge 0 1, the ring 2 3 4.
-std::string trace_of(const std::string& script) {
+std::string script_trace(const std::string& script) {
   TetMesh mesh(shell_mesh({.degree = 3, .height = 1.4142135623730951}));
   Registry registry = Registry::builtin();
   Run run(mesh, registry);
@@ -28,34 +28,34 @@ std::string trace_of(const std::string& script) {
 }  // namespace
 
 TEST_CASE("a single attempt aims at the target of the vertices and at nothing else") {
-  CHECK(trace_of("attempt('edge_removal', {0, 1})") ==
+  CHECK(script_trace("attempt('edge_removal', {0, 1})") ==
         "edge_removal(0 1) level 0\n-> accepted, 3 tets 1.1547 -> 2 tets 1.8856\n");
-  CHECK(trace_of("attempt('edge_removal', {2, 3})") ==
+  CHECK(script_trace("attempt('edge_removal', {2, 3})") ==
         "edge_removal(2 3) level 0\n-> constrained\n");
-  CHECK(trace_of("attempt('smoothing', {4})") == "smoothing(4) level 0\n-> constrained\n");
-  CHECK(trace_of("attempt({'recursive_shell_transformation', max_level = 0}, {0, 1})")
+  CHECK(script_trace("attempt('smoothing', {4})") == "smoothing(4) level 0\n-> constrained\n");
+  CHECK(script_trace("attempt({'recursive_shell_transformation', max_level = 0}, {0, 1})")
             .find("-> accepted") != std::string::npos);
 }
 
 TEST_CASE("a single attempt sees its target from the tet that is named") {
   // The two tets of a face list its vertices in opposite sense.
-  CHECK(trace_of("attempt('flip_2_3', {0, 1, 3}, {0, 1, 2, 3})").find("flip_2_3(0 1 3)") == 0);
-  CHECK(trace_of("attempt('flip_2_3', {0, 1, 3}, {0, 1, 3, 4})").find("flip_2_3(0 3 1)") == 0);
-  CHECK_THROWS_WITH_AS(trace_of("attempt('edge_removal', {2, 3}, {0, 1, 3, 4})"),
+  CHECK(script_trace("attempt('flip_2_3', {0, 1, 3}, {0, 1, 2, 3})").find("flip_2_3(0 1 3)") == 0);
+  CHECK(script_trace("attempt('flip_2_3', {0, 1, 3}, {0, 1, 3, 4})").find("flip_2_3(0 3 1)") == 0);
+  CHECK_THROWS_WITH_AS(script_trace("attempt('edge_removal', {2, 3}, {0, 1, 3, 4})"),
                        doctest::Contains("no edge has the vertices 2, 3 in a tet of 0, 1, 3, 4"),
                        Error);
-  CHECK_THROWS_WITH_AS(trace_of("attempt('edge_removal', {0, 1}, {0, 1, 9, 4})"),
+  CHECK_THROWS_WITH_AS(script_trace("attempt('edge_removal', {0, 1}, {0, 1, 9, 4})"),
                        doctest::Contains("there is no vertex 9"), Error);
 }
 
 TEST_CASE("a single attempt at what is not there is a mistake of the script") {
-  CHECK_THROWS_WITH_AS(trace_of("attempt('edge_removal', {0, 9})"),
+  CHECK_THROWS_WITH_AS(script_trace("attempt('edge_removal', {0, 9})"),
                        doctest::Contains("there is no vertex 9; the mesh has 5"), Error);
-  CHECK_THROWS_WITH_AS(trace_of("attempt('edge_removal', {0, 1, 2})"),
+  CHECK_THROWS_WITH_AS(script_trace("attempt('edge_removal', {0, 1, 2})"),
                        doctest::Contains("edge_removal: no edge has the vertices 0, 1, 2"), Error);
-  CHECK_THROWS_WITH_AS(trace_of("attempt('edge_removal', {0, 0.5})"),
+  CHECK_THROWS_WITH_AS(script_trace("attempt('edge_removal', {0, 0.5})"),
                        doctest::Contains("0.5 is no number of a vertex"), Error);
-  CHECK_THROWS_WITH_AS(trace_of("attempt(all_of{'smoothing'}, {0})"),
+  CHECK_THROWS_WITH_AS(script_trace("attempt(all_of{'smoothing'}, {0})"),
                        doctest::Contains("must be one operator"), Error);
 }
 

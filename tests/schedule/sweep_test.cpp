@@ -14,6 +14,7 @@
 #include "kernel/workspace.h"
 #include "schedule/passes.h"
 #include "schedule/schedule.h"
+#include "tests/support/registry.h"
 #include "tests/support/threads.h"
 #include "tests/support/zoo.h"
 #include "trace/text_trace.h"
@@ -22,8 +23,6 @@ using namespace tetmend;
 using namespace tetmend::test;
 
 namespace {
-
-const Registry kRegistry = Registry::builtin();
 
 struct Item {
   VertexHandle vertex;
@@ -43,14 +42,14 @@ TetMesh bad_cube() {
   return TetMesh::sorted(kuhn_cube(12, 0.33, 3));
 }
 
-struct Outcome {
+struct SweepOutcome {
   TetMesh mesh;
   QualityIndicators after;
 };
 
-Outcome improved(const TetMesh& input, std::size_t blocks, int threads,
-                 TraceSink* trace = nullptr) {
-  Outcome outcome{input, {}};
+SweepOutcome improved(const TetMesh& input, std::size_t blocks, int threads,
+                      TraceSink* trace = nullptr) {
+  SweepOutcome outcome{input, {}};
   on_threads(threads, [&] {
     Run run(outcome.mesh, kRegistry);
     run.set_block_count(blocks);
@@ -203,7 +202,7 @@ TEST_CASE("what is collected comes in the order of the slots") {
 
 TEST_CASE("an improved mesh is the same, bit for bit, for every number of threads") {
   const TetMesh input = bad_cube();
-  const Outcome one = improved(input, 8, 1);
+  const SweepOutcome one = improved(input, 8, 1);
   for (const int threads : {2, 4}) {
     CAPTURE(threads);
     CHECK(improved(input, 8, threads).mesh == one.mesh);
@@ -216,10 +215,10 @@ TEST_CASE("an improved mesh is the same, bit for bit, for every number of thread
 TEST_CASE("blocks do not cost quality, and keep surface, volume and integrity") {
   const TetMesh input = bad_cube();
   const QualityIndicators before = quality_indicators(input);
-  const Outcome whole = improved(input, 1, 2);
+  const SweepOutcome whole = improved(input, 1, 2);
   for (const std::size_t blocks : {2, 8, 20}) {
     CAPTURE(blocks);
-    const Outcome outcome = improved(input, blocks, 2);
+    const SweepOutcome outcome = improved(input, blocks, 2);
     CHECK(to_string(check_integrity(outcome.mesh)) == "");
     CHECK(surface_fingerprint(outcome.mesh) == surface_fingerprint(input));
     CHECK(total_volume(outcome.mesh) == doctest::Approx(total_volume(input)).epsilon(1e-12));

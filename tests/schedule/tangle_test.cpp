@@ -15,7 +15,7 @@ using namespace tetmend::test;
 
 namespace {
 
-const std::function<bool()> kGoOn = [] { return true; };
+const std::function<bool()> kNoStop = [] { return true; };
 
 std::size_t count_inverted(const TetMesh& mesh, const std::vector<TetHandle>& tets) {
   return static_cast<std::size_t>(
@@ -35,7 +35,7 @@ MeshData two_knots() {
 }
 
 std::vector<Tangle> find(const TetMesh& mesh, const TangleLimits& limits) {
-  return find_tangles(mesh, limits, kGoOn);
+  return find_tangles(mesh, limits, kNoStop);
 }
 
 }  // namespace

@@ -12,6 +12,8 @@
 #include "kernel/statistics.h"
 #include "schedule/passes.h"
 #include "tests/kernel/formats/fixtures.h"
+#include "tests/support/registry.h"
+#include "tests/support/stopper.h"
 #include "tests/support/threads.h"
 #include "tests/support/traced_run.h"
 #include "trace/replay.h"
@@ -22,14 +24,12 @@ using namespace tetmend::test;
 
 namespace {
 
-const Registry kRegistry = Registry::builtin();
-
 double share_of_inverted(const TetMesh& mesh) {
   return static_cast<double>(count_not_positive(mesh)) / static_cast<double>(mesh.tet_count());
 }
 
 /// Checks that what is fixed is where it was, and each tet has the vertices that it had.
-void check_kept(const TetMesh& before, const TetMesh& mesh) {
+void check_fixed_kept(const TetMesh& before, const TetMesh& mesh) {
   CHECK(to_string(check_integrity(mesh)) == "");
   CHECK(mesh.tet_count() == before.tet_count());
   for (const VertexHandle v : live_vertices(before)) {
@@ -37,21 +37,6 @@ void check_kept(const TetMesh& before, const TetMesh& mesh) {
   }
   for (const TetHandle t : live_tets(before)) CHECK(mesh.vertices(t) == before.vertices(t));
 }
-
-/// Stops the run at the n-th report of progress.
-class Stopper final : public ProgressListener {
- public:
-  explicit Stopper(int left) : left_(left) {}
-  void progress(std::string_view, unsigned, double share) override {
-    CHECK(share <= 1);
-    if (--left_ <= 0) cancel = true;
-  }
-  void pass_done(std::string_view, unsigned, const QualityIndicators&) override {}
-  std::atomic<bool> cancel = false;
-
- private:
-  int left_;
-};
 
 }  // namespace
 
@@ -69,7 +54,7 @@ TEST_CASE("tangled cubes of all kinds become sound, and what is fixed stays") {
       Run run(mesh, kRegistry);
       untangle(run, {.where = {.share = 0.05}});
       CHECK(count_not_positive(mesh) == 0);
-      check_kept(before, mesh);
+      check_fixed_kept(before, mesh);
       REQUIRE(run.records.size() == 1);
       CHECK(run.records[0].name == "untangle");
       CHECK(run.records[0].accepted() == 1);
@@ -126,7 +111,7 @@ TEST_CASE("a face between two labels stays where it is, and both sides are untan
   untangle(run);
   CHECK(run.records.at(0).accepted() == 2);  // the sides have no free vertex in common
   CHECK(count_not_positive(mesh) == 0);
-  check_kept(before, mesh);
+  check_fixed_kept(before, mesh);
 }
 
 TEST_CASE("untangling that is stopped leaves each tangle as it was") {
@@ -174,7 +159,7 @@ TEST_CASE("where fixed vertices force inverted tets, the others become positive"
   CHECK(run.records.at(0).accepted() == 1);
   CHECK(count_not_positive(mesh) >= forced);
   CHECK(count_not_positive(mesh) < forced + inverted / 10);
-  check_kept(before, mesh);
+  check_fixed_kept(before, mesh);
 }
 
 TEST_CASE("a tangle that nothing helps is left as it was") {
@@ -183,7 +168,7 @@ TEST_CASE("a tangle that nothing helps is left as it was") {
   Run run(mesh, kRegistry);
   untangle(run, {.looks = 1});
   CHECK(count_not_positive(mesh) <= count_not_positive(before));
-  check_kept(before, mesh);
+  check_fixed_kept(before, mesh);
   if (run.records.at(0).accepted() == 0) CHECK(mesh == before);
 }
 

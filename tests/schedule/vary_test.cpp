@@ -16,14 +16,14 @@
 #include "kernel/surface_fingerprint.h"
 #include "kernel/workspace.h"
 #include "schedule/neighbourhood.h"
+#include "tests/support/registry.h"
 #include "tests/support/zoo.h"
 
 using namespace tetmend;
 using namespace tetmend::contract;
+using namespace tetmend::test;
 
 namespace {
-
-const Registry kRegistry = Registry::builtin();
 
 std::vector<Quality> qualities(const TetMesh& mesh) {
   std::vector<Quality> all;

@@ -8,14 +8,13 @@
 
 #include <doctest/doctest.h>
 
+#include "tests/support/tets.h"
 #include "tests/support/zoo.h"
 
 using namespace tetmend;
 using namespace tetmend::test;
 
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180;
 
 /// A tet on a triangle of these angles (degrees) can have all its angles at least this far from 0
 /// and 180.
@@ -36,7 +35,7 @@ double corner_angle(const Point& at, const Point& a, const Point& b) {
 }
 
 /// A random tet that is not too flat, its base some triangle of the unit ball.
-Sample random_tet(Random& random) {
+Sample random_sample(Random& random) {
   for (;;) {
     const std::array<Point, 4> p = {random.in_ball(1), random.in_ball(1), random.in_ball(1),
                                     random.in_ball(1)};
@@ -72,7 +71,7 @@ TEST_CASE("the best angles on a triangle are those that its shape is known to al
 TEST_CASE("every tet is found when the ranges are its own angles") {
   Random random(5);
   for (int n = 0; n < 2000; ++n) {
-    const Sample tet = random_tet(random);
+    const Sample tet = random_sample(random);
     std::array<AngleRange, 3> base;
     for (unsigned i = 0; i < 3; ++i) {
       base[i] = {std::max(0.0, tet.base[i] - random.real(0, 0.5)),
@@ -86,7 +85,7 @@ TEST_CASE("every tet is found when the ranges are its own angles") {
 TEST_CASE("narrow ranges hold an apex only where the cosine law puts the sides") {
   Random random(6);
   for (int n = 0; n < 500; ++n) {
-    const Sample tet = random_tet(random);
+    const Sample tet = random_sample(random);
     std::array<AngleRange, 3> base;
     for (unsigned i = 0; i < 3; ++i) base[i] = {tet.base[i], tet.base[i]};
     const auto [low, high] = std::minmax_element(tet.side.begin(), tet.side.end());

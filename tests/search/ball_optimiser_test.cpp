@@ -13,6 +13,7 @@
 #include <doctest/doctest.h>
 
 #include "kernel/geometry.h"
+#include "tests/support/tets.h"
 #include "tests/support/zoo.h"
 
 using namespace tetmend;
@@ -20,13 +21,11 @@ using namespace tetmend::test;
 
 namespace {
 
-using Triangle = std::array<Point, 3>;
-
-constexpr BallOptimiser::Limits kToTheEnd = {.steps = 1000, .enough = 1, .least_gain = 1e-9};
-const double kRegular = 2 * std::numbers::sqrt2 / 3;
+constexpr BallOptimiser::Limits kBallToTheEnd = {.steps = 1000, .enough = 1, .least_gain = 1e-9};
+const double kRegularSine = 2 * std::numbers::sqrt2 / 3;
 
 /// The faces of an octahedron of the given radius, seen from inside as the optimiser wants them.
-std::vector<Triangle> octahedron(double radius) {
+std::vector<Triangle> octahedron_faces(double radius) {
   std::vector<Triangle> triangles;
   for (const double x : {-radius, radius}) {
     for (const double y : {-radius, radius}) {
@@ -245,20 +244,20 @@ TEST_CASE("a single tet over an equilateral triangle becomes regular") {
   Point p(0.3, -0.2, -0.4);
   if (ball.worst(p) < 0) p.z() = -p.z();
   REQUIRE(ball.worst(p) > 0);
-  const double reached = ball.optimise(p, kToTheEnd);
-  CHECK(reached == doctest::Approx(kRegular).epsilon(0.01));
+  const double reached = ball.optimise(p, kBallToTheEnd);
+  CHECK(reached == doctest::Approx(kRegularSine).epsilon(0.01));
   CHECK(reached == ball.worst(p));
 }
 
 TEST_CASE("a vertex displaced in an octahedron comes back to the centre") {
   Random random(4);
   BallOptimiser ball;
-  load(ball, octahedron(1));
+  load(ball, octahedron_faces(1));
   const double optimum = ball.worst(Point::Zero());
   CHECK(optimum == doctest::Approx(std::sqrt(2.0 / 3)));
   for (int trial = 0; trial < 50; ++trial) {
     Point p = random.in_ball(0.5);
-    const double reached = ball.optimise(p, kToTheEnd);
+    const double reached = ball.optimise(p, kBallToTheEnd);
     CHECK(reached == doctest::Approx(optimum).epsilon(0.03));
     CHECK(p.norm() < 0.05);
   }
@@ -266,10 +265,10 @@ TEST_CASE("a vertex displaced in an octahedron comes back to the centre") {
 
 TEST_CASE("a vertex outside its ball finds the way in") {
   BallOptimiser ball;
-  load(ball, octahedron(1));
+  load(ball, octahedron_faces(1));
   Point p(0.5, 0.5, 0.4);
   REQUIRE(ball.worst(p) < 0);
-  CHECK(ball.optimise(p, kToTheEnd) > 0.7);
+  CHECK(ball.optimise(p, kBallToTheEnd) > 0.7);
 }
 
 TEST_CASE("the ascent never ends below its start and stops where it says") {
@@ -291,7 +290,7 @@ TEST_CASE("the ascent never ends below its start and stops where it says") {
 
 TEST_CASE("a vertex that is good enough stays where it is") {
   BallOptimiser ball;
-  load(ball, octahedron(1));
+  load(ball, octahedron_faces(1));
   Point p(0.01, 0.02, 0);
   const Point before = p;
   const double reached = ball.optimise(p, {.steps = 40, .enough = 0.6});
@@ -310,7 +309,7 @@ TEST_CASE("the ascent comes close to what a random search finds") {
     load(ball, triangles);
     Point p = random.in_ball(0.3);
     const double target = random_search(triangles, p, random);
-    const double reached = ball.optimise(p, kToTheEnd);
+    const double reached = ball.optimise(p, kBallToTheEnd);
     if (reached > target - 0.02) ++close;
     lost += std::max(0.0, target - reached);
   }
@@ -354,7 +353,7 @@ TEST_CASE("degenerate triangles give quality 0 and no wrong numbers") {
   for (const Point& start : {Point(0, 0, 0), a, Point(0.5, 0.5, 0), Point(0, 0, -1)}) {
     Point p = start;
     const double before = ball.worst(p);
-    const double reached = ball.optimise(p, kToTheEnd);
+    const double reached = ball.optimise(p, kBallToTheEnd);
     CHECK(std::isfinite(reached));
     CHECK(p.allFinite());
     CHECK(reached >= before);
@@ -377,12 +376,12 @@ TEST_CASE(
   ball.add({0, 0, 0}, {0, 1, 0}, {1, 0, 0});
   for (const Point& start : {Point(0.3, 0.3, 0), Point(0, 0, 0), Point(0.5, 0.5, 0)}) {
     Point p = start;
-    const double reached = ball.optimise(p, kToTheEnd);
+    const double reached = ball.optimise(p, kBallToTheEnd);
     CHECK(reached >= 0);
     CHECK(p.allFinite());
   }
   Point inside(0.3, 0.3, 0);
-  CHECK(ball.optimise(inside, kToTheEnd) > 0.5);
+  CHECK(ball.optimise(inside, kBallToTheEnd) > 0.5);
 }
 
 TEST_CASE("the shortest vector in a hull is what enumeration finds") {

@@ -29,9 +29,9 @@ namespace {
 // Vertices are numbers: 0 .. m-1 the ring, m and m+1 the ends a and b of the edge.
 using Chain = std::vector<unsigned>;  // ring vertices, ascending
 using Chord = std::pair<unsigned, unsigned>;
-using Tet = std::array<unsigned, 4>;  // in positive order
-using Face = std::array<unsigned, 3>;
-using Edge = std::array<unsigned, 2>;
+using RingTet = std::array<unsigned, 4>;  // in positive order
+using RingFace = std::array<unsigned, 3>;
+using RingEdge = std::array<unsigned, 2>;
 
 struct Candidate {
   Chain core;                    // empty: full reduction
@@ -44,9 +44,9 @@ struct Candidate {
 /// is any one cell or none.
 struct Ring {
   unsigned m;
-  std::vector<Tet> tets;             // of any covering
+  std::vector<RingTet> tets;         // of any covering
   std::vector<Candidate> coverings;  // the old mesh, whose core is the whole ring, included
-  std::vector<Edge> ancestors;       // a p_i, then b p_i, then p_i p_i+1
+  std::vector<RingEdge> ancestors;   // a p_i, then b p_i, then p_i p_i+1
 
   unsigned a() const { return m; }
   unsigned b() const { return m + 1; }
@@ -90,8 +90,8 @@ void cut_into_cells(const Chain& polygon, std::vector<Chord> chords, std::vector
   cells.push_back(polygon);
 }
 
-std::vector<Tet> tets_of(const Ring& ring, const Candidate& covering) {
-  std::vector<Tet> tets;
+std::vector<RingTet> tets_of(const Ring& ring, const Candidate& covering) {
+  std::vector<RingTet> tets;
   for (const Chain& t : covering.triangles) {
     tets.push_back({ring.a(), t[0], t[1], t[2]});
     tets.push_back({t[0], t[1], t[2], ring.b()});
@@ -104,9 +104,9 @@ std::vector<Tet> tets_of(const Ring& ring, const Candidate& covering) {
 }
 
 /// How many of the tets have each face.
-std::map<Face, unsigned> count_faces(const std::vector<Tet>& tets) {
-  std::map<Face, unsigned> count;
-  for (Tet tet : tets) {
+std::map<RingFace, unsigned> count_faces(const std::vector<RingTet>& tets) {
+  std::map<RingFace, unsigned> count;
+  for (RingTet tet : tets) {
     std::sort(tet.begin(), tet.end());
     ++count[{tet[1], tet[2], tet[3]}];
     ++count[{tet[0], tet[2], tet[3]}];
@@ -116,10 +116,10 @@ std::map<Face, unsigned> count_faces(const std::vector<Tet>& tets) {
   return count;
 }
 
-std::set<Face> faces_around(Edge edge, const std::vector<Tet>& tets) {
-  std::set<Face> around;
+std::set<RingFace> faces_around(RingEdge edge, const std::vector<RingTet>& tets) {
+  std::set<RingFace> around;
   for (const auto& entry : count_faces(tets)) {
-    const Face& face = entry.first;
+    const RingFace& face = entry.first;
     const auto has = [&](unsigned v) {
       return std::find(face.begin(), face.end(), v) != face.end();
     };
@@ -129,16 +129,16 @@ std::set<Face> faces_around(Edge edge, const std::vector<Tet>& tets) {
 }
 
 /// The faces with one tet are those of the ring with a and b, all others have two.
-bool faces_close(const Ring& ring, const std::vector<Tet>& tets) {
-  std::set<Face> outer;
+bool faces_close(const Ring& ring, const std::vector<RingTet>& tets) {
+  std::set<RingFace> outer;
   for (const auto& [face, n] : count_faces(tets)) {
     if (n > 2) return false;
     if (n == 1) outer.insert(face);
   }
-  std::set<Face> expected;
+  std::set<RingFace> expected;
   for (unsigned i = 0; i < ring.m; ++i) {
     for (const unsigned apex : {ring.a(), ring.b()}) {
-      Face face = {i, ring.next(i), apex};
+      RingFace face = {i, ring.next(i), apex};
       std::sort(face.begin(), face.end());
       expected.insert(face);
     }
@@ -149,7 +149,7 @@ bool faces_close(const Ring& ring, const std::vector<Tet>& tets) {
 void add_covering(Ring& ring, std::vector<Chain> triangles, Chain core) {
   Candidate covering = {std::move(core), std::move(triangles), {}, {}};
   std::sort(covering.triangles.begin(), covering.triangles.end());
-  for (const Tet& tet : tets_of(ring, covering)) {
+  for (const RingTet& tet : tets_of(ring, covering)) {
     const auto known = std::find(ring.tets.begin(), ring.tets.end(), tet);
     covering.tets.push_back(static_cast<unsigned>(known - ring.tets.begin()));
     if (known == ring.tets.end()) ring.tets.push_back(tet);
@@ -188,12 +188,12 @@ Ring make_ring(unsigned m) {
     for (unsigned i = 0; i < m; ++i) ring.ancestors.push_back({end, i});
   }
   for (unsigned i = 0; i < m; ++i) ring.ancestors.push_back({i, ring.next(i)});
-  const std::vector<Tet> old_tets = tets_of(ring, {polygon, {}, {}, {}});
+  const std::vector<RingTet> old_tets = tets_of(ring, {polygon, {}, {}, {}});
   for (Candidate& covering : ring.coverings) {
-    const std::vector<Tet> tets = tets_of(ring, covering);
-    for (const Edge& edge : ring.ancestors) {
-      const std::set<Face> before = faces_around(edge, old_tets);
-      const std::set<Face> after = faces_around(edge, tets);
+    const std::vector<RingTet> tets = tets_of(ring, covering);
+    for (const RingEdge& edge : ring.ancestors) {
+      const std::set<RingFace> before = faces_around(edge, old_tets);
+      const std::set<RingFace> after = faces_around(edge, tets);
       covering.grows.push_back(
           !std::includes(before.begin(), before.end(), after.begin(), after.end()));
     }
@@ -222,9 +222,9 @@ void lock(const Ring& ring, unsigned n, CoveringProblem& problem) {
   }
 }
 
-class Random {
+class RingRandom {
  public:
-  explicit Random(std::uint64_t seed) : engine_(seed) {}
+  explicit RingRandom(std::uint64_t seed) : engine_(seed) {}
   double real(double low, double high) {
     return low + (high - low) * static_cast<double>(engine_() >> 11) * 0x1.0p-53;
   }
@@ -256,7 +256,7 @@ constexpr std::array<Shape, 4> kSandwichShapes = {{{"near-regular", 0.9, 0.9, 0.
                                                    {"non-convex", 0.2, 0.1, 0.2, 1.0},
                                                    {"slivers", 1e-4, 0.3, 0.1, 0.5}}};
 
-std::vector<Point> random_points(Random& random, unsigned m, const Shape& shape) {
+std::vector<Point> random_ring_points(RingRandom& random, unsigned m, const Shape& shape) {
   std::vector<double> gaps(m);
   double sum = 0;
   for (double& gap : gaps) {
@@ -286,20 +286,20 @@ std::vector<Point> random_points(Random& random, unsigned m, const Shape& shape)
   return points;
 }
 
-using Vector = std::vector<double>;  // qualities, ascending
+using QualityVector = std::vector<double>;  // qualities, ascending
 
 /// A shell of an edge ab, or a sandwich: sandwiched triangles between a and b that form a polygon.
 struct Case {
   const Ring* ring;
   const char* shape;
   std::vector<Point> points;  // the ring, a, b
-  Vector qualities;           // of all tets of the ring
+  QualityVector qualities;    // of all tets of the ring
   const Candidate* old;
   bool is_sandwich;
   std::vector<Quality> old_sides;  // as the search takes them
 
-  Vector vector_of(const Candidate& covering) const {
-    Vector v;
+  QualityVector vector_of(const Candidate& covering) const {
+    QualityVector v;
     for (const unsigned t : covering.tets) v.push_back(qualities[t]);
     std::sort(v.begin(), v.end());
     return v;
@@ -328,12 +328,12 @@ struct Case {
 };
 
 /// A shell has the old tets around ab, a sandwich the first triangulation with positive tets.
-Case random_case(Random& random, unsigned m, const Shape& shape, bool is_sandwich) {
+Case random_case(RingRandom& random, unsigned m, const Shape& shape, bool is_sandwich) {
   Case c = {&ring_of(m), shape.name, {}, {}, nullptr, is_sandwich, {}};
   while (c.old == nullptr) {
-    c.points = random_points(random, m, shape);
+    c.points = random_ring_points(random, m, shape);
     c.qualities.clear();
-    for (const Tet& t : c.ring->tets) {
+    for (const RingTet& t : c.ring->tets) {
       c.qualities.push_back(
           minimum_sine(c.points[t[0]], c.points[t[1]], c.points[t[2]], c.points[t[3]]));
     }
@@ -349,16 +349,16 @@ Case random_case(Random& random, unsigned m, const Shape& shape, bool is_sandwic
 }
 
 /// The search computes the same qualities by other operations, in single precision.
-constexpr double kTolerance = 1e-6;
+constexpr double kSearchTolerance = 1e-6;
 
 /// Order of quality vectors cut to the `worst` lowest entries, a missing entry being +infinity: the
 /// first entries that differ decide. 0 also if these are too close to tell.
-int compare(const Vector& x, const Vector& y, unsigned worst) {
+int compare(const QualityVector& x, const QualityVector& y, unsigned worst) {
   for (unsigned i = 0; i < worst; ++i) {
     const double xi = i < x.size() ? x[i] : std::numeric_limits<double>::infinity();
     const double yi = i < y.size() ? y[i] : std::numeric_limits<double>::infinity();
     if (xi == yi) continue;
-    if (std::abs(xi - yi) <= kTolerance) return 0;
+    if (std::abs(xi - yi) <= kSearchTolerance) return 0;
     return xi > yi ? 1 : -1;
   }
   return 0;
@@ -366,8 +366,8 @@ int compare(const Vector& x, const Vector& y, unsigned worst) {
 
 /// The best quality vectors among the coverings other than the old one.
 struct Best {
-  std::optional<Vector> full;
-  std::optional<Vector> core;
+  std::optional<QualityVector> full;
+  std::optional<QualityVector> core;
 };
 
 bool obeys(const Candidate& covering, const std::vector<unsigned>& ancestors) {
@@ -381,9 +381,9 @@ Best enumerate_best(const Case& c, Quality floor, const std::vector<unsigned>& a
   for (const Candidate& covering : c.ring->coverings) {
     if (!c.is_sandwich && &covering == c.old) continue;
     if (!obeys(covering, ancestors)) continue;
-    if (c.worst_new(covering) <= floor + kTolerance) continue;
-    std::optional<Vector>& seen = covering.core.empty() ? best.full : best.core;
-    const Vector v = c.vector_of(covering);
+    if (c.worst_new(covering) <= floor + kSearchTolerance) continue;
+    std::optional<QualityVector>& seen = covering.core.empty() ? best.full : best.core;
+    const QualityVector v = c.vector_of(covering);
     const bool better =
         !seen || std::lexicographical_compare(seen->begin(), seen->end(), v.begin(), v.end());
     if (better) seen = v;
@@ -414,7 +414,7 @@ const Candidate* identify(const Ring& ring, const Covering& covering) {
 /// What is wrong with the tets that a caller makes of a covering; empty if nothing is.
 std::string fault_of_tets(const Case& c, const Covering& covering) {
   const Ring& ring = *c.ring;
-  std::vector<Tet> tets;
+  std::vector<RingTet> tets;
   for (unsigned n = 0; n < covering.triangle_count; ++n) {
     const auto [i, k, j] = covering.triangles[n];
     const bool in_ring_order = (i < k) + (k < j) + (j < i) == 2;
@@ -428,13 +428,13 @@ std::string fault_of_tets(const Case& c, const Covering& covering) {
   }
   if (tets.size() != covering.tet_count()) return "the number of tets is wrong";
   if (!faces_close(ring, tets)) return "the faces do not close";
-  const auto volume = [&](const Tet& t) {
+  const auto volume = [&](const RingTet& t) {
     return volume6(c.points[t[0]], c.points[t[1]], c.points[t[2]], c.points[t[3]]);
   };
   double before = 0;
   double after = 0;
   for (const unsigned t : c.old->tets) before += volume(ring.tets[t]);
-  for (const Tet& t : tets) {
+  for (const RingTet& t : tets) {
     if (volume(t) <= 0) return "a tet is not positive";
     after += volume(t);
   }
@@ -454,7 +454,7 @@ template <unsigned Worst>
 std::string fault_of_search(const Case& c, const Best& best, const CoveringProblem& problem,
                             const std::vector<unsigned>& ancestors, Tally& tally) {
   static BasicCoveringSearch<Worst> search;
-  std::optional<Vector> required = best.full;
+  std::optional<QualityVector> required = best.full;
   const bool core_counts = problem.allow_core && best.core &&
                            (c.is_sandwich || compare(*best.core, c.vector_of(*c.old), Worst) > 0);
   if (core_counts && (!required || compare(*best.core, *required, Worst) > 0)) required = best.core;
@@ -470,7 +470,8 @@ std::string fault_of_search(const Case& c, const Best& best, const CoveringProbl
   if (!c.is_sandwich && found == c.old) return "the old mesh";
   if (!problem.allow_core && covering.degree > 0) return "a core where none is allowed";
   if (!obeys(*found, ancestors)) return "an ancestor edge has a new face";
-  if (c.worst_new(*found) <= problem.floor - kTolerance) return "a new tet is not above the floor";
+  if (c.worst_new(*found) <= problem.floor - kSearchTolerance)
+    return "a new tet is not above the floor";
   if (required && compare(c.vector_of(*found), *required, Worst) < 0)
     return "not the best covering";
   return fault_of_tets(c, covering);
@@ -572,7 +573,7 @@ TEST_CASE("Locked vertices and edges forbid just the coverings with new faces at
 }
 
 TEST_CASE("A random shell without ancestors gets the best of all its coverings") {
-  Random random(1);
+  RingRandom random(1);
   Tallies tallies;
   for (unsigned m = kSmallest; m <= kLargest; ++m) {
     for (unsigned n = 0; n < kCases; ++n) {
@@ -585,7 +586,7 @@ TEST_CASE("A random shell without ancestors gets the best of all its coverings")
 }
 
 TEST_CASE("A random shell below ancestor edges gets the best covering without new faces there") {
-  Random random(2);
+  RingRandom random(2);
   Tallies tallies;
   for (unsigned m = kSmallest; m <= kLargest; ++m) {
     for (unsigned n = 0; n < kCases; ++n) {
@@ -600,7 +601,7 @@ TEST_CASE("A random shell below ancestor edges gets the best covering without ne
 }
 
 TEST_CASE("A random sandwich gets the best of all coverings of its polygon") {
-  Random random(3);
+  RingRandom random(3);
   Tallies tallies;
   for (unsigned m = kSmallest; m <= kLargest; ++m) {
     for (unsigned n = 0; n < kCases; ++n) {
@@ -614,7 +615,7 @@ TEST_CASE("A random sandwich gets the best of all coverings of its polygon") {
 
 TEST_CASE(
     "A floor just below the worst tet of the best covering keeps it, one just above does not") {
-  Random random(4);
+  RingRandom random(4);
   ExactCoveringSearch search;
   unsigned found = 0;
   for (unsigned m = kSmallest; m <= kLargest; ++m) {
@@ -627,14 +628,14 @@ TEST_CASE(
         const double worst = allow_core ? std::max(full, core) : full;
         if (worst == 0) continue;
         ++found;
-        CoveringProblem problem = c.problem(static_cast<Quality>(worst - kTolerance));
+        CoveringProblem problem = c.problem(static_cast<Quality>(worst - kSearchTolerance));
         problem.allow_core = allow_core;
         Covering covering;
         REQUIRE(search.run(problem, covering));
         const Candidate* kept = identify(*c.ring, covering);
         REQUIRE(kept != nullptr);
-        REQUIRE(std::abs(c.vector_of(*kept).front() - worst) <= kTolerance);
-        problem.floor = static_cast<Quality>(worst + kTolerance);
+        REQUIRE(std::abs(c.vector_of(*kept).front() - worst) <= kSearchTolerance);
+        problem.floor = static_cast<Quality>(worst + kSearchTolerance);
         REQUIRE_FALSE(search.run(problem, covering));
       }
     }

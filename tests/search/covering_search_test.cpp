@@ -20,7 +20,7 @@ using namespace tetmend;
 
 namespace {
 
-using Triangle = Covering::Triangle;
+using CoveringTriangle = Covering::Triangle;
 
 /// Points of one shell; the problem of a search refers to them.
 struct TestShell {
@@ -75,7 +75,7 @@ TestShell make_eared_shell() {
       {Point(1, 0, 0), Point(0, 1, 0), Point(-1, 0, 0), Point(0, -1, 0), Point(1.5, -0.05, 0)});
 }
 
-struct Tets {
+struct VolumeAndWorst {
   double volume6 = 0;
   double worst = std::numeric_limits<double>::infinity();
 
@@ -85,16 +85,16 @@ struct Tets {
   }
 };
 
-Tets old_tets(const TestShell& s) {
-  Tets tets;
+VolumeAndWorst old_tets(const TestShell& s) {
+  VolumeAndWorst tets;
   for (std::size_t i = 0; i < s.ring.size(); ++i) {
     tets.add(s.a, s.b, s.ring[i], s.ring[(i + 1) % s.ring.size()]);
   }
   return tets;
 }
 
-Tets new_tets(const TestShell& s, const Covering& covering) {
-  Tets tets;
+VolumeAndWorst new_tets(const TestShell& s, const Covering& covering) {
+  VolumeAndWorst tets;
   for (unsigned n = 0; n < covering.triangle_count; ++n) {
     const auto [i, k, j] = covering.triangles[n];
     tets.add(s.a, s.ring[i], s.ring[k], s.ring[j]);
@@ -111,17 +111,17 @@ std::vector<unsigned> core_of(const Covering& covering) {
 }
 
 /// The triangles, each from its lowest vertex on, in ascending order.
-std::vector<Triangle> triangles_of(const Covering& covering) {
-  std::vector<Triangle> triangles(covering.triangles.begin(),
-                                  covering.triangles.begin() + covering.triangle_count);
-  for (Triangle& t : triangles)
+std::vector<CoveringTriangle> triangles_of(const Covering& covering) {
+  std::vector<CoveringTriangle> triangles(covering.triangles.begin(),
+                                          covering.triangles.begin() + covering.triangle_count);
+  for (CoveringTriangle& t : triangles)
     std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
   std::sort(triangles.begin(), triangles.end());
   return triangles;
 }
 
-const std::vector<Triangle> kDiagonal02 = {{0, 1, 2}, {0, 2, 3}};
-const std::vector<Triangle> kDiagonal13 = {{0, 1, 3}, {1, 2, 3}};
+const std::vector<CoveringTriangle> kDiagonal02 = {{0, 1, 2}, {0, 2, 3}};
+const std::vector<CoveringTriangle> kDiagonal13 = {{0, 1, 3}, {1, 2, 3}};
 
 /// Worst qualities of all triangulations of the chain i .. i + d, each ascending and padded.
 std::vector<CoveringSearch::Ranking> all_rankings(const TestShell& s, unsigned i, unsigned d) {
@@ -160,7 +160,7 @@ TEST_CASE("A long edge of degree 3 is removed by the only triangle") {
   REQUIRE(search.run(shell.problem(shell.worst_old()), covering));
   CHECK(covering.degree == 0);
   CHECK(covering.tet_count() == 2);
-  CHECK(triangles_of(covering) == std::vector<Triangle>{{0, 1, 2}});
+  CHECK(triangles_of(covering) == std::vector<CoveringTriangle>{{0, 1, 2}});
   CHECK(search.evaluations() == 1);
 }
 
@@ -184,7 +184,7 @@ TEST_CASE("Two tall tets with a common face become three around a new edge") {
 
   problem.allow_core = false;
   REQUIRE(search.run(problem, covering));
-  CHECK(triangles_of(covering) == std::vector<Triangle>{{0, 1, 2}});
+  CHECK(triangles_of(covering) == std::vector<CoveringTriangle>{{0, 1, 2}});
 }
 
 TEST_CASE("An octahedron is cut along the shorter diagonal") {
@@ -259,9 +259,9 @@ TEST_CASE("An ear in one plane with the edge is cut off and the rest of the shel
   CoveringProblem problem = shell.problem(shell.worst_old());
   REQUIRE(search.run(problem, covering));
   CHECK(core_of(covering) == std::vector<unsigned>{0, 1, 2, 3});
-  CHECK(triangles_of(covering) == std::vector<Triangle>{{0, 3, 4}});
+  CHECK(triangles_of(covering) == std::vector<CoveringTriangle>{{0, 3, 4}});
   CHECK(covering.tet_count() == 6);
-  const Tets tets = new_tets(shell, covering);
+  const VolumeAndWorst tets = new_tets(shell, covering);
   CHECK(tets.worst > 3 * shell.worst_old());
   CHECK(tets.volume6 == doctest::Approx(old_tets(shell).volume6).epsilon(1e-12));
 
@@ -269,7 +269,7 @@ TEST_CASE("An ear in one plane with the edge is cut off and the rest of the shel
     problem.locked_vertices = 0b00110;
     problem.locked_edges = 0b00111;
     REQUIRE(search.run(problem, covering));
-    CHECK(triangles_of(covering) == std::vector<Triangle>{{0, 3, 4}});
+    CHECK(triangles_of(covering) == std::vector<CoveringTriangle>{{0, 3, 4}});
   }
   SUBCASE("but not if the chord would end at a locked vertex") {
     problem.locked_vertices = 0b01001;
@@ -287,7 +287,7 @@ TEST_CASE("An ear in one plane with the edge is cut off and the rest of the shel
 
 TEST_CASE("A star of 16 points loses its tips, and its edge only if there must be no core") {
   const TestShell shell = make_round_shell(16, 1, 0.4);
-  const Tets before = old_tets(shell);
+  const VolumeAndWorst before = old_tets(shell);
   CoveringProblem problem = shell.problem(shell.worst_old());
   CoveringSearch search;
   ExactCoveringSearch exact;
@@ -310,7 +310,7 @@ TEST_CASE("A star of 16 points loses its tips, and its edge only if there must b
   for (const Covering& full : {covering, exact_covering}) {
     CHECK(full.degree == 0);
     CHECK(full.tet_count() == 28);
-    const Tets tets = new_tets(shell, full);
+    const VolumeAndWorst tets = new_tets(shell, full);
     CHECK(tets.worst > shell.worst_old());
     CHECK(tets.worst < worst);
     CHECK(tets.volume6 == doctest::Approx(before.volume6).epsilon(1e-12));

@@ -9,14 +9,13 @@
 
 #include "kernel/geometry.h"
 #include "kernel/quality.h"
+#include "tests/support/tets.h"
 #include "tests/support/zoo.h"
 
 using namespace tetmend;
 using namespace tetmend::test;
 
 namespace {
-
-using Triangle = std::array<Point, 3>;
 
 /// The faces of an octahedron whose corners are moved at random, seen from inside.
 std::vector<Triangle> random_link(Random& random, double amount) {

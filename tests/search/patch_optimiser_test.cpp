@@ -22,7 +22,7 @@ using namespace tetmend::test;
 
 namespace {
 
-constexpr PatchOptimiser::Limits kToTheEnd = {.steps = 300, .enough = 0.9, .least_gain = 1e-9};
+constexpr PatchOptimiser::Limits kPatchToTheEnd = {.steps = 300, .enough = 0.9, .least_gain = 1e-9};
 
 /// Points and tets; the first `free` points may move.
 struct Patch {
@@ -176,7 +176,7 @@ TEST_CASE("a single vertex comes as far as by the ascent of its ball") {
     if (!(ball.worst(p) > 0)) continue;
     const double alone =
         ball.optimise(p, {.steps = 1000, .enough = 1, .least_gain = 1e-9, .least_step = 1e-4});
-    close += optimiser.optimise(kToTheEnd) > alone - 0.01;
+    close += optimiser.optimise(kPatchToTheEnd) > alone - 0.01;
   }
   MESSAGE(close, " of ", trials, " as good as the ascent");
   CHECK(close > 90);
@@ -200,11 +200,11 @@ TEST_CASE("two vertices get further together than in turns") {
       }
       in_turns.free = 1;
       in_turns.load(optimiser);
-      optimiser.optimise(kToTheEnd);
+      optimiser.optimise(kPatchToTheEnd);
       in_turns.points = in_turns.moved(optimiser);
     }
     patch.load(optimiser);
-    const double together = optimiser.optimise(kToTheEnd);
+    const double together = optimiser.optimise(kPatchToTheEnd);
     const double alone = in_turns.worst(in_turns.points);
     gained += together - alone;
     further += together > alone + 0.01;

@@ -24,31 +24,31 @@ using contract::Random;
 
 namespace {
 
-using Tet = std::array<unsigned, 4>;       // in positive order
-using Triangle = std::array<unsigned, 3>;  // counterclockwise seen from outside its tet
+using TetCorners = std::array<unsigned, 4>;   // in positive order
+using FaceCorners = std::array<unsigned, 3>;  // counterclockwise seen from outside its tet
 
-constexpr std::array<Triangle, 4> kFaces = {{{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
+constexpr std::array<FaceCorners, 4> kFaces = {{{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
 
-Triangle face(const Tet& tet, unsigned f) {
+FaceCorners face(const TetCorners& tet, unsigned f) {
   return {tet[kFaces[f][0]], tet[kFaces[f][1]], tet[kFaces[f][2]]};
 }
 
 /// Starting at the lowest corner.
-Triangle turned(Triangle t) {
+FaceCorners turned(FaceCorners t) {
   std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
   return t;
 }
 
-Triangle reversed(const Triangle& t) {
+FaceCorners reversed(const FaceCorners& t) {
   return turned({t[0], t[2], t[1]});
 }
 
 /// The faces of tets that have no other tet behind them.
-std::set<Triangle> surface_of(const std::vector<Tet>& tets) {
-  std::set<Triangle> open;
-  for (const Tet& tet : tets) {
+std::set<FaceCorners> surface_of(const std::vector<TetCorners>& tets) {
+  std::set<FaceCorners> open;
+  for (const TetCorners& tet : tets) {
     for (unsigned f = 0; f < 4; ++f) {
-      const Triangle t = turned(face(tet, f));
+      const FaceCorners t = turned(face(tet, f));
       if (open.erase(reversed(t)) == 0) open.insert(t);
     }
   }
@@ -57,19 +57,19 @@ std::set<Triangle> surface_of(const std::vector<Tet>& tets) {
 
 struct Solid {
   std::vector<Point> points;
-  std::vector<Tet> tets;  // that it was made of
-  std::set<Triangle> surface;
+  std::vector<TetCorners> tets;  // that it was made of
+  std::set<FaceCorners> surface;
   std::set<unsigned> inside;  // vertices not on the surface
 
-  double volume(const Tet& t) const {
+  double volume(const TetCorners& t) const {
     return volume6(points[t[0]], points[t[1]], points[t[2]], points[t[3]]);
   }
-  double quality(const Tet& t) const {
+  double quality(const TetCorners& t) const {
     return minimum_sine(points[t[0]], points[t[1]], points[t[2]], points[t[3]]);
   }
   double volume() const {
     double sum = 0;
-    for (const Tet& t : tets) sum += volume(t);
+    for (const TetCorners& t : tets) sum += volume(t);
     return sum;
   }
   PointMask inside_mask() const {
@@ -80,7 +80,7 @@ struct Solid {
 };
 
 /// Points of a ball, pressed flat or onto a sphere for some of the shapes.
-std::vector<Point> random_points(Random& random, unsigned count, unsigned shape) {
+std::vector<Point> random_ball_points(Random& random, unsigned count, unsigned shape) {
   std::vector<Point> points(count);
   for (Point& p : points) {
     p = random.in_ball(1);
@@ -95,20 +95,20 @@ std::vector<Point> random_points(Random& random, unsigned count, unsigned shape)
 Solid random_solid(Random& random, unsigned vertices, unsigned shape) {
   Solid solid;
   const std::vector<Point> points =
-      random_points(random, vertices + static_cast<unsigned>(random.index(4)), shape);
-  std::vector<Tet> left;
+      random_ball_points(random, vertices + static_cast<unsigned>(random.index(4)), shape);
+  std::vector<TetCorners> left;
   for (const auto& t : contract::delaunay(points)) left.push_back({t[0], t[1], t[2], t[3]});
   std::set<unsigned> used;
   const std::size_t most = 2 + random.index(left.size());
-  const auto corners_with = [&](const Tet& t) {
+  const auto corners_with = [&](const TetCorners& t) {
     std::set<unsigned> all = used;
     all.insert(t.begin(), t.end());
     return all;
   };
-  std::vector<Tet> tets;
+  std::vector<TetCorners> tets;
   while (!left.empty() && tets.size() < most) {
     std::vector<std::size_t> fitting;
-    const std::set<Triangle> surface = surface_of(tets);
+    const std::set<FaceCorners> surface = surface_of(tets);
     for (std::size_t i = 0; i < left.size(); ++i) {
       bool touches = tets.empty();
       for (unsigned f = 0; f < 4; ++f) touches |= surface.count(reversed(face(left[i], f))) > 0;
@@ -125,13 +125,13 @@ Solid random_solid(Random& random, unsigned vertices, unsigned shape) {
     number[v] = static_cast<unsigned>(number.size());
     solid.points.push_back(points[v]);
   }
-  for (Tet t : tets) {
+  for (TetCorners t : tets) {
     for (unsigned& v : t) v = number[v];
     solid.tets.push_back(t);
   }
   solid.surface = surface_of(solid.tets);
   for (unsigned v = 0; v < solid.points.size(); ++v) solid.inside.insert(v);
-  for (const Triangle& t : solid.surface) {
+  for (const FaceCorners& t : solid.surface) {
     for (const unsigned v : t) solid.inside.erase(v);
   }
   return solid;
@@ -142,7 +142,7 @@ Solid random_solid(Random& random, unsigned vertices, unsigned shape) {
 class Enumeration {
  public:
   explicit Enumeration(const Solid& solid) : solid_(solid), volume_(solid.volume()) {
-    for (const Triangle& t : solid.surface) {
+    for (const FaceCorners& t : solid.surface) {
       open_.insert(t);
       taken_.insert(reversed(t));
     }
@@ -162,15 +162,15 @@ class Enumeration {
       if (std::abs(volume - volume_) < 1e-9 * volume_) note();
       return;
     }
-    const Triangle base = *open_.begin();
+    const FaceCorners base = *open_.begin();
     for (unsigned apex = 0; apex < solid_.points.size(); ++apex) {
-      const Tet tet = {apex, base[0], base[1], base[2]};
+      const TetCorners tet = {apex, base[0], base[1], base[2]};
       if (std::count(base.begin(), base.end(), apex) > 0) continue;
       const auto& p = solid_.points;
       if (exact_orientation(p[apex], p[base[0]], p[base[1]], p[base[2]]) <= 0) continue;
       const double sum = volume + solid_.volume(tet);
       if (sum > volume_ * (1 + 1e-9)) continue;
-      if (std::any_of(kFaces.begin(), kFaces.end(), [&](const Triangle& local) {
+      if (std::any_of(kFaces.begin(), kFaces.end(), [&](const FaceCorners& local) {
             return taken_.count(turned({tet[local[0]], tet[local[1]], tet[local[2]]})) > 0;
           })) {
         continue;
@@ -181,19 +181,19 @@ class Enumeration {
     }
   }
 
-  void put(const Tet& tet) {
+  void put(const TetCorners& tet) {
     tets_.push_back(tet);
     for (unsigned f = 0; f < 4; ++f) {
-      const Triangle t = turned(face(tet, f));
+      const FaceCorners t = turned(face(tet, f));
       taken_.insert(t);
       if (open_.erase(t) == 0) open_.insert(reversed(t));
     }
   }
 
-  void take_back(const Tet& tet) {
+  void take_back(const TetCorners& tet) {
     tets_.pop_back();
     for (unsigned f = 0; f < 4; ++f) {
-      const Triangle t = turned(face(tet, f));
+      const FaceCorners t = turned(face(tet, f));
       taken_.erase(t);
       if (open_.erase(reversed(t)) == 0) open_.insert(t);
     }
@@ -203,7 +203,7 @@ class Enumeration {
     ++count_;
     double worst = 1;
     std::set<unsigned> unused = solid_.inside;
-    for (const Tet& tet : tets_) {
+    for (const TetCorners& tet : tets_) {
       worst = std::min(worst, solid_.quality(tet));
       for (const unsigned v : tet) unused.erase(v);
     }
@@ -213,19 +213,19 @@ class Enumeration {
 
   const Solid& solid_;
   double volume_;
-  std::set<Triangle> open_;
-  std::set<Triangle> taken_;
-  std::vector<Tet> tets_;
+  std::set<FaceCorners> open_;
+  std::set<FaceCorners> taken_;
+  std::vector<TetCorners> tets_;
   std::size_t count_ = 0;
   double best_ = 0;
   double best_with_all_ = 0;
 };
 
 /// Owns what a problem refers to.
-struct Search {
-  explicit Search(const Solid& solid) {
+struct OracleSearch {
+  explicit OracleSearch(const Solid& solid) {
     for (const Point& p : solid.points) search.add(p);
-    for (const Triangle& t : solid.surface) {
+    for (const FaceCorners& t : solid.surface) {
       surface.push_back({static_cast<std::uint8_t>(t[0]), static_cast<std::uint8_t>(t[1]),
                          static_cast<std::uint8_t>(t[2])});
     }
@@ -238,19 +238,19 @@ struct Search {
   PolyhedronProblem problem;
 };
 
-std::vector<Tet> found_tets(const PolyhedronSearch& search) {
-  std::vector<Tet> tets;
+std::vector<TetCorners> found_tets(const PolyhedronSearch& search) {
+  std::vector<TetCorners> tets;
   for (const auto& [a, b, c, d] : search.tets()) tets.push_back({a, b, c, d});
   return tets;
 }
 
 /// What is wrong with the tets that were found; empty if nothing is.
 std::string fault_of(const Solid& solid, const PolyhedronSearch& search, bool all_vertices) {
-  const std::vector<Tet> tets = found_tets(search);
+  const std::vector<TetCorners> tets = found_tets(search);
   std::set<unsigned> unused = solid.inside;
   double volume = 0;
   double worst = 1;
-  for (const Tet& t : tets) {
+  for (const TetCorners& t : tets) {
     const auto& p = solid.points;
     if (exact_orientation(p[t[0]], p[t[1]], p[t[2]], p[t[3]]) <= 0) return "a tet is not positive";
     volume += solid.volume(t);
@@ -278,7 +278,7 @@ TEST_CASE("A random polyhedron gets the best of all its tetrahedralisations") {
     const Solid solid = random_solid(random, 5 + n % 5, n / 5);
     const Enumeration all(solid);
     REQUIRE(all.count() > 0);  // that of the Delaunay tets at least
-    Search s(solid);
+    OracleSearch s(solid);
     for (const bool keep_all : {true, false}) {
       CAPTURE(keep_all);
       const double best = keep_all ? all.best_with_all() : all.best();
@@ -294,7 +294,7 @@ TEST_CASE("A random polyhedron gets the best of all its tetrahedralisations") {
       CHECK_FALSE(s.search.was_cut_short());
     }
     double delaunay = 1;
-    for (const Tet& t : solid.tets) delaunay = std::min(delaunay, solid.quality(t));
+    for (const TetCorners& t : solid.tets) delaunay = std::min(delaunay, solid.quality(t));
     with_choice += all.count() > 1;
     with_inside += !solid.inside.empty();
     beats_delaunay += all.best_with_all() > delaunay + kTolerance;

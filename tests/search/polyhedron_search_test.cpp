@@ -13,17 +13,18 @@
 #include <doctest/doctest.h>
 
 #include "kernel/judge.h"
+#include "tests/support/octahedron.h"
 
 using namespace tetmend;
+using namespace tetmend::test;
 
 namespace {
 
-using Triangle = PolyhedronProblem::Triangle;
-using Corners = std::array<unsigned, 4>;
+using PolyhedronFace = PolyhedronProblem::Triangle;
 
-struct Solid {
+struct ClosedSurface {
   std::vector<Point> points;
-  std::vector<Triangle> surface;
+  std::vector<PolyhedronFace> surface;
 };
 
 //            1               Around the edge 0-1, which is not in the surface, the ring 2 3 4 5.
@@ -31,15 +32,15 @@ struct Solid {
 //       2--3----4
 //        \  \ 5/
 //           0
-Solid octahedron(double h, double x, double y) {
+ClosedSurface octahedron_surface(double h, double x, double y) {
   return {{{0, 0, -h}, {0, 0, h}, {x, 0, 0}, {0, y, 0}, {-x, 0, 0}, {0, -y, 0}},
           {{1, 2, 3}, {1, 3, 4}, {1, 4, 5}, {1, 5, 2}, {0, 3, 2}, {0, 4, 3}, {0, 5, 4}, {0, 2, 5}}};
 }
 
 /// Schoenhardt's: a prism over the triangle 0 1 2, the top 3 4 5 turned so that the sides bend
 /// inwards along the diagonals 0-4, 1-5, 2-3.
-Solid twisted_prism(double degrees) {
-  Solid solid;
+ClosedSurface twisted_prism(double degrees) {
+  ClosedSurface solid;
   for (unsigned i = 0; i < 6; ++i) {
     const double turn = (i % 3) * 120 + (i < 3 ? 0 : degrees);
     const double angle = turn * std::numbers::pi / 180;
@@ -51,7 +52,7 @@ Solid twisted_prism(double degrees) {
 }
 
 struct Search {
-  explicit Search(Solid of) : solid(std::move(of)) {
+  explicit Search(ClosedSurface of) : solid(std::move(of)) {
     for (const Point& p : solid.points) search.add(p);
     problem.surface = solid.surface;
   }
@@ -66,14 +67,10 @@ struct Search {
     return all;
   }
 
-  Solid solid;
+  ClosedSurface solid;
   PolyhedronSearch search;
   PolyhedronProblem problem;
 };
-
-const std::set<Corners> kAround01 = {{0, 1, 2, 3}, {0, 1, 3, 4}, {0, 1, 4, 5}, {0, 1, 2, 5}};
-const std::set<Corners> kAround24 = {{0, 2, 3, 4}, {0, 2, 4, 5}, {1, 2, 3, 4}, {1, 2, 4, 5}};
-const std::set<Corners> kAround35 = {{0, 2, 3, 5}, {0, 3, 4, 5}, {1, 2, 3, 5}, {1, 3, 4, 5}};
 
 }  // namespace
 
@@ -81,7 +78,7 @@ TEST_CASE("an octahedron is divided around its shortest diagonal") {
   const std::array<std::array<double, 3>, 3> sizes = {{{1, 2, 2}, {2, 1, 2}, {2, 2, 1}}};
   const std::array<std::set<Corners>, 3> expected = {kAround01, kAround24, kAround35};
   for (unsigned i = 0; i < 3; ++i) {
-    Search s(octahedron(sizes[i][0], sizes[i][1], sizes[i][2]));
+    Search s(octahedron_surface(sizes[i][0], sizes[i][1], sizes[i][2]));
     REQUIRE(s.run());
     CHECK(s.tets() == expected[i]);
     CHECK_FALSE(s.search.was_cut_short());
@@ -93,7 +90,7 @@ TEST_CASE("an octahedron is divided around its shortest diagonal") {
 }
 
 TEST_CASE("nothing is found when no tetrahedralisation is above the floor") {
-  Search s(octahedron(1, 2, 2));
+  Search s(octahedron_surface(1, 2, 2));
   REQUIRE(s.run());
   s.problem.floor = s.search.worst();
   CHECK_FALSE(s.run());
@@ -114,7 +111,7 @@ TEST_CASE("Schoenhardt's polyhedron has no tetrahedralisation") {
 }
 
 TEST_CASE("a point inside must be used if it is to be kept, and only then") {
-  Solid with_centre = octahedron(1, 2, 2);
+  ClosedSurface with_centre = octahedron_surface(1, 2, 2);
   with_centre.points.emplace_back(0.01, 0.02, 0);
   Search s(with_centre);
   REQUIRE(s.run());
@@ -122,7 +119,7 @@ TEST_CASE("a point inside must be used if it is to be kept, and only then") {
   s.problem.kept = 1u << 6;
   REQUIRE(s.run());
   CHECK(s.search.tets().size() == 8);
-  Solid schoenhardt = twisted_prism(30);
+  ClosedSurface schoenhardt = twisted_prism(30);
   schoenhardt.points.emplace_back(0, 0, 0.5);
   Search t(schoenhardt);
   REQUIRE(t.run());
@@ -130,7 +127,7 @@ TEST_CASE("a point inside must be used if it is to be kept, and only then") {
 }
 
 TEST_CASE("a point on a diagonal is kept, although no tet can hold it in its inside") {
-  Solid with_centre = octahedron(1, 2, 2);
+  ClosedSurface with_centre = octahedron_surface(1, 2, 2);
   with_centre.points.emplace_back(0, 0, 0);
   Search s(with_centre);
   s.problem.kept = 1u << 6;
@@ -139,7 +136,7 @@ TEST_CASE("a point on a diagonal is kept, although no tet can hold it in its ins
 }
 
 TEST_CASE("a banned tet is not used") {
-  Search s(octahedron(1, 2, 3));
+  Search s(octahedron_surface(1, 2, 3));
   REQUIRE(s.run());
   REQUIRE(s.tets() == kAround01);
   s.problem.banned = 1u << 0 | 1u << 1 | 1u << 3 | 1u << 4;
@@ -148,7 +145,7 @@ TEST_CASE("a banned tet is not used") {
 }
 
 TEST_CASE("points may be added between runs") {
-  Search s(octahedron(1, 2, 2));
+  Search s(octahedron_surface(1, 2, 2));
   REQUIRE(s.run());
   s.search.add({0.01, 0.02, 0});
   s.problem.kept = 1u << 6;
@@ -159,7 +156,7 @@ TEST_CASE("points may be added between runs") {
 }
 
 TEST_CASE("the search ends at the first tetrahedralisation that is good enough") {
-  Solid crooked = octahedron(1, 1, 1);
+  ClosedSurface crooked = octahedron_surface(1, 1, 1);
   crooked.points = {{-3, 0, -11}, {-3, 0, 12}, {10, -3, 1}, {-3, 13, 2}, {-7, 3, 1}, {0, -13, 0}};
   Search s(crooked);
   REQUIRE(s.run());
@@ -176,7 +173,7 @@ TEST_CASE("the search ends at the first tetrahedralisation that is good enough")
 }
 
 TEST_CASE("a search without nodes left says so, and keeps what it has found") {
-  Search s(octahedron(1, 1.1, 1.2));
+  Search s(octahedron_surface(1, 1.1, 1.2));
   s.problem.max_nodes = 3;
   CHECK_FALSE(s.run());
   CHECK(s.search.was_cut_short());
@@ -187,7 +184,7 @@ TEST_CASE("a search without nodes left says so, and keeps what it has found") {
 }
 
 TEST_CASE("new tets that lack too much in sum are refused") {
-  Search s(octahedron(0.3, 2, 3));
+  Search s(octahedron_surface(0.3, 2, 3));
   REQUIRE(s.run());
   double lack = 0;
   for (const auto& [a, b, c, d] : s.search.tets()) {

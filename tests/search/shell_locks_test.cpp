@@ -9,16 +9,16 @@ using namespace tetmend;
 
 namespace {
 
-using Edge = std::array<VertexHandle, 2>;
+using LockedEdge = std::array<VertexHandle, 2>;
 
 /// The shell of 0 1 with the ring 2 .. 6.
-ShellLocks locks(const std::vector<Edge>& ancestors) {
+ShellLocks locks(const std::vector<LockedEdge>& ancestors) {
   const std::vector<VertexHandle> ring = {VertexHandle(2), VertexHandle(3), VertexHandle(4),
                                           VertexHandle(5), VertexHandle(6)};
   return lock_ancestors(VertexHandle(0), VertexHandle(1), ring, ancestors);
 }
 
-Edge edge(std::uint32_t x, std::uint32_t y) {
+LockedEdge edge(std::uint32_t x, std::uint32_t y) {
   return {VertexHandle(x), VertexHandle(y)};
 }
 

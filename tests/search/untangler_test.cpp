@@ -12,6 +12,7 @@
 
 #include "kernel/geometry.h"
 #include "kernel/quality.h"
+#include "tests/support/tets.h"
 #include "tests/support/threads.h"
 #include "tests/support/zoo.h"
 
@@ -20,17 +21,10 @@ using namespace tetmend::test;
 
 namespace {
 
-const auto kGoOn = [](std::size_t) { return true; };
-
-using Corners = std::array<Point, 4>;
-
-Corners regular_tet(double edge) {
-  const double a = edge / std::sqrt(8.0);
-  return {Point(a, a, a), Point(-a, a, -a), Point(a, -a, -a), Point(-a, -a, a)};
-}
+const auto kEachStep = [](std::size_t) { return true; };
 
 /// A cube of cells^3 cells whose inner vertices are moved by up to `jitter` cells.
-TangledPatch cube(unsigned cells, double jitter, std::uint64_t seed) {
+TangledPatch cube_patch(unsigned cells, double jitter, std::uint64_t seed) {
   const MeshData data = kuhn_cube(cells, jitter, seed);
   const auto is_inner = [](const Point& rest) {
     return rest.minCoeff() > 1e-9 && rest.maxCoeff() < 1 - 1e-9;
@@ -53,7 +47,7 @@ TangledPatch cube(unsigned cells, double jitter, std::uint64_t seed) {
   return patch;
 }
 
-std::size_t count_inverted(const TangledPatch& patch, std::span<const Point> points) {
+std::size_t count_inverted_of(const TangledPatch& patch, std::span<const Point> points) {
   return static_cast<std::size_t>(
       std::count_if(patch.tets.begin(), patch.tets.end(), [&](const auto& v) {
         return !certified_positive(points[v[0]], points[v[1]], points[v[2]], points[v[3]]);
@@ -61,7 +55,7 @@ std::size_t count_inverted(const TangledPatch& patch, std::span<const Point> poi
 }
 
 double share(const TangledPatch& patch) {
-  return static_cast<double>(count_inverted(patch, patch.points)) /
+  return static_cast<double>(count_inverted_of(patch, patch.points)) /
          static_cast<double>(patch.tets.size());
 }
 
@@ -77,16 +71,16 @@ TEST_CASE("the gradient of a tangled tet is that of differences, whatever its si
   Random random(3);
   constexpr double kStep = 1e-6;
   for (int n = 0; n < 200; ++n) {
-    Corners p;
+    TetPoints p;
     for (Point& corner : p) corner = random.in_ball(1);
     const double size = random.real(0.5, 2);
     for (const double softness : {2.0, 0.3, 0.1}) {
-      Corners gradient;
+      TetPoints gradient;
       TangledTet(p, size).gradient(softness, gradient);
       for (std::size_t i = 0; i < 4; ++i) {
         for (Eigen::Index k = 0; k < 3; ++k) {
-          Corners ahead = p;
-          Corners behind = p;
+          TetPoints ahead = p;
+          TetPoints behind = p;
           ahead[i][k] += kStep;
           behind[i][k] -= kStep;
           const double slope =
@@ -101,15 +95,15 @@ TEST_CASE("the gradient of a tangled tet is that of differences, whatever its si
 
 TEST_CASE(
     "a tet of the right shape and size costs least, and without softness as by its mean ratio") {
-  const Corners right = regular_tet(0.7);
+  const TetPoints right = regular_tet(0.7);
   CHECK(TangledTet(right, 0.7).volume() == doctest::Approx(1));
   CHECK(TangledTet(right, 0.7).cost(1e-9) == doctest::Approx(1));
-  Corners gradient;
+  TetPoints gradient;
   TangledTet(right, 0.7).gradient(1e-9, gradient);
   for (const Point& g : gradient) CHECK(g.norm() < 1e-9);
   Random random(5);
   for (int n = 0; n < 50; ++n) {
-    Corners p = right;
+    TetPoints p = right;
     for (Point& corner : p) corner += random.in_ball(0.2);
     const TangledTet tet(p, 0.7);
     CHECK(tet.cost(1e-9) > 1);
@@ -132,12 +126,12 @@ TEST_CASE("cubes with up to 45 percent of inverted tets are untangled, and fixed
     for (const std::uint64_t seed : {1u, 2u, 3u}) {
       CAPTURE(jitter);
       CAPTURE(seed);
-      const TangledPatch patch = cube(6, jitter, seed);
+      const TangledPatch patch = cube_patch(6, jitter, seed);
       least = std::min(least, share(patch));
       most = std::max(most, share(patch));
       Untangler untangler(patch);
-      CHECK(untangler.untangle({}, kGoOn) == 0);
-      CHECK(count_inverted(patch, untangler.points()) == 0);
+      CHECK(untangler.untangle({}, kEachStep) == 0);
+      CHECK(count_inverted_of(patch, untangler.points()) == 0);
       CHECK(stayed(patch, untangler.points()));
       CHECK(untangler.looks() < 150);
     }
@@ -147,21 +141,21 @@ TEST_CASE("cubes with up to 45 percent of inverted tets are untangled, and fixed
 }
 
 TEST_CASE("a patch that is far from 0 and of another size is untangled just so") {
-  TangledPatch patch = cube(5, 1.5, 4);
+  TangledPatch patch = cube_patch(5, 1.5, 4);
   for (Point& p : patch.points) p = 1e-3 * p + Point(10, -20, 30);
   Untangler untangler(patch);
-  CHECK(untangler.untangle({}, kGoOn) == 0);
-  CHECK(count_inverted(patch, untangler.points()) == 0);
+  CHECK(untangler.untangle({}, kEachStep) == 0);
+  CHECK(count_inverted_of(patch, untangler.points()) == 0);
 }
 
 TEST_CASE("the number of threads does not show in an untangled patch") {
-  const TangledPatch patch = cube(15, 1.8, 1);
+  const TangledPatch patch = cube_patch(15, 1.8, 1);
   REQUIRE(patch.tets.size() > 20000);
   std::vector<Point> first;
   for (const int threads : {1, 2, 3, 8}) {
     on_threads(threads, [&] {
       Untangler untangler(patch);
-      CHECK(untangler.untangle({}, kGoOn) == 0);
+      CHECK(untangler.untangle({}, kEachStep) == 0);
       const std::vector<Point> points(untangler.points().begin(), untangler.points().end());
       if (first.empty()) first = points;
       CHECK(points == first);
@@ -170,7 +164,7 @@ TEST_CASE("the number of threads does not show in an untangled patch") {
 }
 
 TEST_CASE("tets that cannot be positive do not hold back the others") {
-  TangledPatch patch = cube(6, 1.5, 2);
+  TangledPatch patch = cube_patch(6, 1.5, 2);
   // Two fixed points in the middle whose tets with fixed points are turned over: where one is.
   const auto v = static_cast<std::uint32_t>(patch.points.size());
   const Point at = patch.points[0];
@@ -179,26 +173,26 @@ TEST_CASE("tets that cannot be positive do not hold back the others") {
   patch.tets.push_back({0, v, v + 1, v + 2});
   patch.tets.push_back({0, v, v + 2, v + 1});
   Untangler untangler(patch);
-  CHECK(untangler.untangle({}, kGoOn) == 1);
-  CHECK(count_inverted(patch, untangler.points()) == 1);
+  CHECK(untangler.untangle({}, kEachStep) == 1);
+  CHECK(count_inverted_of(patch, untangler.points()) == 1);
 }
 
 TEST_CASE("an untangler looks as often as it may, and never ends with more inverted tets") {
   // One vertex is so far away that the cost is very soft at first, and others lose their places.
-  TangledPatch patch = cube(6, 0.3, 1);
+  TangledPatch patch = cube_patch(6, 0.3, 1);
   patch.points[62] += Point(20, 20, 20);
-  const std::size_t before = count_inverted(patch, patch.points);
+  const std::size_t before = count_inverted_of(patch, patch.points);
   for (unsigned looks = 1; looks < 40; ++looks) {
     Untangler hurried(patch);
-    hurried.untangle({.looks = looks}, kGoOn);
+    hurried.untangle({.looks = looks}, kEachStep);
     CHECK(hurried.looks() < looks + 15);
-    CHECK(count_inverted(patch, hurried.points()) <= before);
+    CHECK(count_inverted_of(patch, hurried.points()) <= before);
   }
 }
 
 TEST_CASE("an untangler that is stopped in a look ends with what it had") {
-  const TangledPatch patch = cube(8, 1.5, 1);
-  const std::size_t before = count_inverted(patch, patch.points);
+  const TangledPatch patch = cube_patch(8, 1.5, 1);
+  const std::size_t before = count_inverted_of(patch, patch.points);
   for (const int most : {1, 2, 3, 20, 41}) {
     CAPTURE(most);
     Untangler stopped(patch);
@@ -206,16 +200,16 @@ TEST_CASE("an untangler that is stopped in a look ends with what it had") {
     stopped.untangle({}, [&](std::size_t) { return ++asked < most; });
     CHECK(asked >= most);
     CHECK(asked < most + 3);  // each part of a look asks once
-    CHECK(count_inverted(patch, stopped.points()) <= before);
+    CHECK(count_inverted_of(patch, stopped.points()) <= before);
   }
 }
 
 TEST_CASE("a patch without free vertices, or without tets, is as it was") {
-  TangledPatch patch = cube(3, 2, 1);
+  TangledPatch patch = cube_patch(3, 2, 1);
   patch.free_count = 0;
   Untangler untangler(patch);
-  CHECK(untangler.untangle({}, kGoOn) == count_inverted(patch, patch.points));
+  CHECK(untangler.untangle({}, kEachStep) == count_inverted_of(patch, patch.points));
   CHECK(std::equal(patch.points.begin(), patch.points.end(), untangler.points().begin()));
   Untangler nothing({});
-  CHECK(nothing.untangle({}, kGoOn) == 0);
+  CHECK(nothing.untangle({}, kEachStep) == 0);
 }

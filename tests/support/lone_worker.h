@@ -16,12 +16,10 @@
 #include "kernel/shell.h"
 #include "kernel/workspace.h"
 #include "ops/registry.h"
+#include "tests/support/tets.h"
 #include "tests/support/zoo.h"
 
 namespace tetmend::test {
-
-/// The vertex numbers of a tet, ascending.
-using Corners = std::array<std::uint32_t, 4>;
 
 class LoneWorker {
  public:

@@ -13,10 +13,9 @@
 #include <Eigen/Geometry>
 
 #include "kernel/mesh_data.h"
+#include "tests/support/tets.h"
 
 namespace tetmend::test {
-
-using Triangle = std::array<Point, 3>;
 
 inline double segment_distance(const Point& p, const Point& a, const Point& b) {
   const Point d = b - a;

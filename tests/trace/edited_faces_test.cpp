@@ -9,17 +9,16 @@
 
 #include <doctest/doctest.h>
 
+#include "tests/support/tets.h"
+
 using namespace tetmend;
+using namespace tetmend::test;
 
 namespace {
 
-using Tets = std::vector<TetVertices>;
+using TetList = std::vector<TetVertices>;
 
-TetVertices tet_of(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) {
-  return {VertexHandle(a), VertexHandle(b), VertexHandle(c), VertexHandle(d)};
-}
-
-EditedFaces mesh_of(const Tets& tets) {
+EditedFaces faces_of_tets(const TetList& tets) {
   EditedFaces faces;
   for (const TetVertices& tet : tets) {
     for (unsigned f = 0; f < 4; ++f) CHECK(faces.add(tet, f));
@@ -28,7 +27,7 @@ EditedFaces mesh_of(const Tets& tets) {
 }
 
 /// False where two of what comes lie on one side of a face.
-bool list(EditedFaces& faces, const Tets& gone, const Tets& come) {
+bool list(EditedFaces& faces, const TetList& gone, const TetList& come) {
   bool is_right = true;
   faces.list_none(gone.size() + come.size());
   for (unsigned f = 0; f < 4; ++f) {
@@ -38,24 +37,24 @@ bool list(EditedFaces& faces, const Tets& gone, const Tets& come) {
   return is_right;
 }
 
-bool edit(EditedFaces& faces, const Tets& gone, const Tets& come) {
+bool edit(EditedFaces& faces, const TetList& gone, const TetList& come) {
   faces.begin_edit(gone.size() + come.size());
   return list(faces, gone, come) && faces.make();
 }
 
-bool keep_hull(const Tets& gone, const Tets& come) {
+bool keep_hull(const TetList& gone, const TetList& come) {
   EditedFaces faces;
   return list(faces, gone, come) && faces.keep_hull();
 }
 
-const Tets kTwo = {tet_of(0, 1, 2, 3), tet_of(0, 2, 1, 4)};
-const Tets kThree = {tet_of(0, 1, 4, 3), tet_of(1, 2, 4, 3), tet_of(2, 0, 4, 3)};
+const TetList kTwo = {tet_of(0, 1, 2, 3), tet_of(0, 2, 1, 4)};
+const TetList kThree = {tet_of(0, 1, 4, 3), tet_of(1, 2, 4, 3), tet_of(2, 0, 4, 3)};
 const TetVertices kBeside = tet_of(0, 1, 3, 5);  // at a face of their hull
 
 }  // namespace
 
 TEST_CASE("a face takes one tet on each side") {
-  EditedFaces faces = mesh_of(kTwo);
+  EditedFaces faces = faces_of_tets(kTwo);
   CHECK_FALSE(faces.add(tet_of(0, 1, 2, 5), 3));
   CHECK_FALSE(edit(faces, {}, {tet_of(0, 1, 2, 5)}));
   CHECK_FALSE(list(faces, {}, {tet_of(6, 7, 8, 9), tet_of(6, 7, 8, 10)}));
@@ -71,9 +70,9 @@ TEST_CASE("two tets and the three around an edge have the same hull, others have
 }
 
 TEST_CASE("tets are exchanged for others, but not for one whose place is taken") {
-  Tets all = kTwo;
+  TetList all = kTwo;
   all.push_back(kBeside);
-  EditedFaces faces = mesh_of(all);
+  EditedFaces faces = faces_of_tets(all);
   CHECK(edit(faces, kTwo, kThree));
   SUBCASE("by one beside the hull") {
     CHECK_FALSE(edit(faces, {}, {tet_of(0, 1, 3, 6)}));
@@ -91,7 +90,7 @@ TEST_CASE("tets are exchanged for others, but not for one whose place is taken")
 }
 
 TEST_CASE("an edit is undone as long as it is not settled, and then exchanged back") {
-  EditedFaces faces = mesh_of(kTwo);
+  EditedFaces faces = faces_of_tets(kTwo);
   CHECK_FALSE(faces.undo());
   CHECK(edit(faces, kTwo, kThree));
   CHECK(faces.undo());
@@ -105,10 +104,10 @@ TEST_CASE("an edit is undone as long as it is not settled, and then exchanged ba
 }
 
 TEST_CASE("faces come and go at the boundary alone") {
-  Tets all = kTwo;
+  TetList all = kTwo;
   all.push_back(kBeside);
-  EditedFaces faces = mesh_of(all);
-  const auto fits = [&](const Tets& gone, const Tets& come) {
+  EditedFaces faces = faces_of_tets(all);
+  const auto fits = [&](const TetList& gone, const TetList& come) {
     return list(faces, gone, come) && faces.keep_hull_inside();
   };
   CHECK(fits(kTwo, kThree));
@@ -123,7 +122,7 @@ TEST_CASE("many edits, most of them undone, some of them large, leave what a pla
   EditedFaces faces;
   std::mt19937 random(7);
   const auto tets_at = [](const std::vector<std::uint32_t>& places) {
-    Tets tets;
+    TetList tets;
     for (const std::uint32_t i : places)
       tets.push_back(tet_of(4 * i, 4 * i + 1, 4 * i + 2, 4 * i + 3));
     return tets;

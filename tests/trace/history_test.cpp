@@ -17,8 +17,8 @@ using namespace tetmend::test;
 namespace {
 
 /// A recorded run, and what it wrote.
-struct Recorded {
-  explicit Recorded(const std::string& name = "sheet.mesh") : mesh(asset_mesh(name)) {
+struct RecordedRun {
+  explicit RecordedRun(const std::string& name = "sheet.mesh") : mesh(asset_mesh(name)) {
     record(mesh, path);
     write_mesh(after, mesh.to_data());
   }
@@ -44,7 +44,7 @@ bool is_there(const SlotMesh& mesh, const HistorySubject& subject) {
   return false;
 }
 
-std::string refusal(const TraceFile& file, const std::string& text) {
+std::string history_refusal(const TraceFile& file, const std::string& text) {
   Replay replay(file, 0);
   try {
     history_of(file, replay, find_subject(file, replay, text));
@@ -57,7 +57,7 @@ std::string refusal(const TraceFile& file, const std::string& text) {
 }  // namespace
 
 TEST_CASE("a tet of the mesh that a run wrote is found in its trace, with what made it") {
-  const Recorded run;
+  const RecordedRun run;
   const TraceFile file(run.path);
   Replay replay(file);
   const MeshData after = read_mesh(run.after);
@@ -90,7 +90,7 @@ TEST_CASE("a tet of the mesh that a run wrote is found in its trace, with what m
 }
 
 TEST_CASE("a tet that a run removed is found by its file, with the call that removed it") {
-  const Recorded run;
+  const RecordedRun run;
   const TraceFile file(run.path);
   Replay replay(file);
   unsigned removed = 0;
@@ -113,7 +113,7 @@ TEST_CASE("a tet that a run removed is found by its file, with the call that rem
 }
 
 TEST_CASE("calls in trials are told apart from those that worked on the mesh that stayed") {
-  const Recorded run("folded_sheet.mesh");
+  const RecordedRun run("folded_sheet.mesh");
   const TraceFile file(run.path);
   Replay replay(file);
   // Of a refused outermost call all edits are undone: what it calls while one stands is a trial.
@@ -159,7 +159,7 @@ TEST_CASE("calls in trials are told apart from those that worked on the mesh tha
 }
 
 TEST_CASE("the worst tet, an edge and a vertex are asked for by numbers of the trace") {
-  const Recorded run;
+  const RecordedRun run;
   const TraceFile file(run.path);
   Replay replay(file);
   const HistorySubject worst = find_subject(file, replay, "tet:worst");
@@ -181,7 +181,7 @@ TEST_CASE("the worst tet, an edge and a vertex are asked for by numbers of the t
 }
 
 TEST_CASE("of an edge or a face, too, the call that came nearest is named; of a vertex none is") {
-  const Recorded run;
+  const RecordedRun run;
   const TraceFile file(run.path);
   Replay replay(file);
   unsigned named = 0;
@@ -203,7 +203,7 @@ TEST_CASE("of an edge or a face, too, the call that came nearest is named; of a 
 }
 
 TEST_CASE("a tet that no pass turned to is told so") {
-  const Recorded run;
+  const RecordedRun run;
   const TraceFile file(run.path);
   Replay replay(file);
   replay.seek(file.event_count());
@@ -263,31 +263,33 @@ TEST_CASE("a refused call whose worst tet was better is told with what else coun
 }
 
 TEST_CASE("questions that name nothing are refused with a reason") {
-  const Recorded run;
+  const RecordedRun run;
   const TraceFile file(run.path);
   for (const char* text :
        {"", "tet", "tet:", "tet:x", "tet:1,2", "tet:1,2,3,3", "edge:4", "edge:4,4", "vertex:1,2",
         "ball:3", "tet:worst@a.mesh", "tet:3@", "edge:1;2"}) {
     CAPTURE(text);
-    CHECK(refusal(file, text).find("names nothing in a trace: expected tet:N") !=
+    CHECK(history_refusal(file, text).find("names nothing in a trace: expected tet:N") !=
           std::string::npos);
   }
-  CHECK(refusal(file, "tet:99999999").starts_with("there is no tet 99999999 when the trace ends"));
-  CHECK(refusal(file, "edge:99999998,99999999").find("nothing of the kind") != std::string::npos);
-  CHECK(refusal(file, "tet:0@" + run.after.string()).find("has no tet 0") != std::string::npos);
-  CHECK(refusal(file, "tet:1@/nowhere.mesh").find("/nowhere.mesh") != std::string::npos);
+  CHECK(history_refusal(file, "tet:99999999")
+            .starts_with("there is no tet 99999999 when the trace ends"));
+  CHECK(history_refusal(file, "edge:99999998,99999999").find("nothing of the kind") !=
+        std::string::npos);
+  CHECK(history_refusal(file, "tet:0@" + run.after.string()).find("has no tet 0") !=
+        std::string::npos);
+  CHECK(history_refusal(file, "tet:1@/nowhere.mesh").find("/nowhere.mesh") != std::string::npos);
   const TempFolder other;
   MeshData far;
   far.points = {{1e9, 0, 0}, {2e9, 0, 0}, {1e9, 1, 0}, {1e9, 0, 1}};
   far.tets = {{{0, 1, 2, 3}, 0}};
   write_mesh(other / "far.mesh", far);
-  CHECK(
-      refusal(file, "tet:1@" + (other / "far.mesh").string()).find("no vertices at these places") !=
-      std::string::npos);
+  CHECK(history_refusal(file, "tet:1@" + (other / "far.mesh").string())
+            .find("no vertices at these places") != std::string::npos);
 }
 
 TEST_CASE("a history that is cut short has the calls that came nearest, and counts the others") {
-  const Recorded run("folded_sheet.mesh");
+  const RecordedRun run("folded_sheet.mesh");
   const TraceFile file(run.path);
   Replay replay(file, 0);
   const History history = history_of(file, replay, find_subject(file, replay, "tet:worst"));

@@ -33,7 +33,7 @@ std::vector<FrameContent> sound_beginning(const TempFolder& folder) {
   return frames;
 }
 
-std::string complaint(const std::filesystem::path& path) {
+std::string use_error(const std::filesystem::path& path) {
   try {
     use_trace(path);
   } catch (const Error& error) {
@@ -286,7 +286,7 @@ TEST_CASE("an event that does not fit the mesh is refused with byte, event and r
     hostile.write(events);
     write_forged(folder, beginning, events.chunk());
     REQUIRE(use_within_bounds(folder / "forged") == 0);
-    const std::string message = complaint(folder / "forged");
+    const std::string message = use_error(folder / "forged");
     CHECK_MESSAGE(message.find(hostile.reason) != std::string::npos, message);
     CHECK(message.starts_with((folder / "forged").string() + ": byte "));
     const bool is_undo = hostile.reason.find("nothing") != std::string_view::npos;
@@ -299,13 +299,13 @@ TEST_CASE("a place that the scale takes out of the doubles is refused, in a mesh
   const auto beginning = sound_beginning(folder);
   const std::string reason = "a coordinate and the scale do not go together";
   write_frames(folder / "forged", {beginning[0], forged_mesh({0, 1, 2, 3}, 1, 1e300, 1, 500)});
-  CHECK(complaint(folder / "forged").find(reason) != std::string::npos);
+  CHECK(use_error(folder / "forged").find(reason) != std::string::npos);
   for (const double x : {1e10, 1e300}) {
     ForgedEvents event;
     event.kind(EventKind::add_vertex).put(5).point(x, 0, 0);
     write_frames(folder / "forged", {beginning[0], forged_mesh({0, 1, 2, 3}, 1, 1, 1, 500),
                                      event.chunk(), end_frame(1)});
-    CHECK((complaint(folder / "forged").find(reason) != std::string::npos) == (x > 1e100));
+    CHECK((use_error(folder / "forged").find(reason) != std::string::npos) == (x > 1e100));
   }
 }
 
@@ -320,7 +320,7 @@ TEST_CASE("qualities by a measure of a program are refused unless there is one f
   last.resize(last.size() - 4);
   last[last.size() - 5] = std::byte{1};
   write_frames(folder / "forged", frames);
-  CHECK(complaint(folder / "forged").find("1 qualities of 2 tets") != std::string::npos);
+  CHECK(use_error(folder / "forged").find("1 qualities of 2 tets") != std::string::npos);
 }
 
 TEST_CASE("chunks and ends that count wrong are refused") {
@@ -343,7 +343,7 @@ TEST_CASE("chunks and ends that count wrong are refused") {
     CAPTURE(reason);
     write_forged(folder, beginning, frame);
     REQUIRE(use_within_bounds(folder / "forged") == 0);
-    CHECK(complaint(folder / "forged").find(reason) != std::string::npos);
+    CHECK(use_error(folder / "forged").find(reason) != std::string::npos);
   }
 }
 
@@ -364,7 +364,7 @@ TEST_CASE("a mesh that is none is refused before the first event") {
     CAPTURE(reason);
     write_frames(folder / "forged", {beginning[0], mesh});
     REQUIRE(use_within_bounds(folder / "forged") == 0);
-    const std::string message = complaint(folder / "forged");
+    const std::string message = use_error(folder / "forged");
     CHECK_MESSAGE(message.find(reason) != std::string::npos, message);
   }
 }
@@ -381,7 +381,7 @@ TEST_CASE("a frame that claims more than its bytes can hold takes no memory") {
     const std::string frame = magic + raw(claim) + blocks;
     write_text(folder / "claim", head + raw(claim) + raw(frame.size()) + frame);
     CHECK(use_within_bounds(folder / "claim") == 0);
-    CHECK(complaint(folder / "claim").find("bytes cannot hold") != std::string::npos);
+    CHECK(use_error(folder / "claim").find("bytes cannot hold") != std::string::npos);
   };
   const std::string empty_block("\x01\0\0", 3);
   check(std::uint64_t{1} << 27, empty_block);

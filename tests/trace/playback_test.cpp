@@ -6,16 +6,13 @@
 
 #include <doctest/doctest.h>
 
+#include "tests/support/tets.h"
 #include "tests/support/traced_run.h"
 
 using namespace tetmend;
 using namespace tetmend::test;
 
 namespace {
-
-TetVertices tet_of(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) {
-  return {VertexHandle(a), VertexHandle(b), VertexHandle(c), VertexHandle(d)};
-}
 
 TraceEvent cavity_of(std::vector<TetHandle> removed, std::vector<TetHandle> created,
                      std::vector<TetVertices> vertices) {

@@ -15,11 +15,12 @@ using namespace tetmend::test;
 
 namespace {
 
-struct Recorded {
+struct RecordedStates {
   TempFolder folder;
   std::map<std::uint64_t, std::uint64_t> truth;
 
-  Recorded(const std::string& mesh_name, const Schedule& schedule, const TraceFilter& filter = {}) {
+  RecordedStates(const std::string& mesh_name, const Schedule& schedule,
+                 const TraceFilter& filter = {}) {
     TetMesh mesh = asset_mesh(mesh_name);
     TetMesh again = mesh;
     record(mesh, folder / "trace", filter, {}, schedule);
@@ -31,7 +32,7 @@ struct Recorded {
 };
 
 /// Where the replay differs from the run, visiting in the order given.
-std::vector<std::uint64_t> differences(Replay& replay, const Recorded& recorded,
+std::vector<std::uint64_t> differences(Replay& replay, const RecordedStates& recorded,
                                        const std::vector<std::uint64_t>& order) {
   std::vector<std::uint64_t> wrong;
   for (const std::uint64_t k : order) {
@@ -41,7 +42,7 @@ std::vector<std::uint64_t> differences(Replay& replay, const Recorded& recorded,
   return wrong;
 }
 
-void check_both_ways(const Recorded& recorded, std::size_t memory = Replay::kDefaultMemory,
+void check_both_ways(const RecordedStates& recorded, std::size_t memory = Replay::kDefaultMemory,
                      std::uint64_t distance = Replay::kDefaultDistance) {
   const TraceFile file(recorded.folder / "trace");
   REQUIRE(recorded.truth.size() > 300);
@@ -64,7 +65,7 @@ void check_both_ways(const Recorded& recorded, std::size_t memory = Replay::kDef
 }  // namespace
 
 TEST_CASE("the mesh at hundreds of events is the one that the run had, in any order") {
-  const Recorded recorded("folded_sheet.mesh", Schedule::builtin("shell"));
+  const RecordedStates recorded("folded_sheet.mesh", Schedule::builtin("shell"));
   SUBCASE("as a user has it") {
     check_both_ways(recorded);
   }
@@ -80,11 +81,11 @@ TEST_CASE("replay knows labels, insertions of vertices and their undoing") {
   const Schedule schedule("all", R"(
     apply("centroid_insertion") apply("circumcentre_insertion") suppress_points{}
     insert_points{} local_reconnection{} smooth{})");
-  check_both_ways(Recorded("two_materials.mesh", schedule));
+  check_both_ways(RecordedStates("two_materials.mesh", schedule));
 }
 
 TEST_CASE("a step back and a step forth give the mesh of before") {
-  const Recorded recorded("sheet.mesh", Schedule("brief", "local_reconnection{} smooth{}"));
+  const RecordedStates recorded("sheet.mesh", Schedule("brief", "local_reconnection{} smooth{}"));
   const TraceFile file(recorded.folder / "trace");
   Replay replay(file);
   replay.seek(file.event_count() / 2);
@@ -102,7 +103,7 @@ TEST_CASE("a step back and a step forth give the mesh of before") {
 }
 
 TEST_CASE("the cavity of an event tells the mesh before it from the mesh after it") {
-  const Recorded recorded("sheet.mesh", Schedule("brief", "local_reconnection{} smooth{}"));
+  const RecordedStates recorded("sheet.mesh", Schedule("brief", "local_reconnection{} smooth{}"));
   const TraceFile file(recorded.folder / "trace");
   Replay replay(file);
   EventCursor events(file);

@@ -20,13 +20,13 @@ namespace {
 const Schedule kSequences("sequences", R"(
     apply(sequence{"edge_split", "shell_transformation", {"smoothing", steps = 5}}))");
 
-struct Recorded {
+struct RecordedSequences {
   TempFolder folder;
   TetMesh before = TetMesh(delaunay_ball(80, 4));
   TetMesh mesh = before;
   std::map<std::uint64_t, std::uint64_t> truth;  // by event: all of them
 
-  explicit Recorded(const TraceFilter& filter = {}) {
+  explicit RecordedSequences(const TraceFilter& filter = {}) {
     record(mesh, folder / "trace", filter, {}, kSequences);
     std::set<std::uint64_t> all;
     const std::uint64_t events = TraceFile(folder / "trace").event_count();
@@ -50,7 +50,7 @@ std::optional<std::uint32_t> find_sequence(const TraceFile& file, Verdict verdic
 }  // namespace
 
 TEST_CASE("a sequence is a call with its parts in it, its verdict and its quality vectors") {
-  const Recorded recorded;
+  const RecordedSequences recorded;
   const TraceFile file(recorded.folder / "trace");
   CHECK(file.damage().empty());
   std::size_t wrong = 0;
@@ -84,7 +84,7 @@ TEST_CASE("a sequence is a call with its parts in it, its verdict and its qualit
 }
 
 TEST_CASE("replay steps through a sequence that is kept and through one that is undone") {
-  const Recorded recorded;
+  const RecordedSequences recorded;
   const TraceFile file(recorded.folder / "trace");
   Replay replay(file);
   const auto print_at = [&](std::uint64_t position) {
@@ -118,7 +118,7 @@ TEST_CASE("what filters leave of sequences leads to the same mesh") {
       {.operators = {"smoothing"}}, {.operators = {"edge_split"}}, {.depth = 0}};
   for (const TraceFilter& filter : filters) {
     CAPTURE(filter.describe());
-    const Recorded recorded(filter);
+    const RecordedSequences recorded(filter);
     const TraceFile file(recorded.folder / "trace");
     REQUIRE(!file.calls().empty());
     Replay replay(file);

@@ -36,4 +36,11 @@ struct TestSession {
   }
 };
 
+/// Of a trace; a tet was looked at before.
+struct TraceSession : TestSession {
+  explicit TraceSession(const std::filesystem::path& trace) : TestSession(one_tet()) {
+    document.open(trace);
+  }
+};
+
 }  // namespace tetmend::test

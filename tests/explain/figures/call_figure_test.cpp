@@ -36,7 +36,7 @@ bool has_text(const Drawing& drawing, const std::string& words) {
 }
 
 /// No two words lie on each other, and none sticks out of the page.
-void check_words(const Drawing& drawing) {
+void check_words_on_page(const Drawing& drawing) {
   const auto texts = texts_of(drawing);
   for (std::size_t i = 0; i < texts.size(); ++i) {
     const figure::Box box = figure::box_of(texts[i]);
@@ -81,7 +81,7 @@ TEST_CASE("a ring has the numbers of the study of its call, and none on each oth
     for (const auto& side : study.picture->before.core) {
       CHECK(has_text(drawing, fmt::format("{:.3f}", side.quality)));
     }
-    check_words(drawing);
+    check_words_on_page(drawing);
     if (!study.covering) continue;
     ++made;
     for (const auto& t : study.covering->triangles) {
@@ -122,7 +122,7 @@ TEST_CASE("a tree has a row for each call, with its facts") {
   }
   REQUIRE(count(largest) > 5);
   const Drawing drawing = bench.draw(FigureKind::tree, largest);
-  check_words(drawing);
+  check_words_on_page(drawing);
   FactTable facts;
   for (std::uint32_t k = largest; k < calls[largest].subtree_end; ++k) {
     CHECK(has_text(drawing, fmt::format("{}", k)));
@@ -157,7 +157,7 @@ TEST_CASE("a timeline has the curves of the run, and leaves the replay where it 
   CHECK(bench.replay.position() == 100);
   CHECK(all.title == fmt::format("Run of {} events and {} calls", bench.file.event_count(),
                                  bench.file.calls().size()));
-  check_words(all);
+  check_words_on_page(all);
   const auto has_curve = [](const Drawing& drawing, const figure::Colour& colour) {
     return std::any_of(drawing.shapes.begin(), drawing.shapes.end(), [&](const auto& shape) {
       const auto* stroke = std::get_if<figure::Stroke>(&shape);

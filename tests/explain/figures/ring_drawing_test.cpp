@@ -50,7 +50,7 @@ EventKind kind_of_event(const TraceFile& file, std::uint64_t number) {
 }
 
 /// No two words lie on each other, and all lie in the square.
-void check_words(const LinkedDrawing& drawing) {
+void check_words_in_square(const LinkedDrawing& drawing) {
   std::vector<figure::Box> boxes;
   for (const figure::Text& text : all<figure::Text>(drawing)) {
     const figure::Box box = figure::box_of(text);
@@ -88,8 +88,8 @@ TEST_CASE("the polygon has the old tets before the edit and the new covering aft
     for (const auto& t : made.triangles) CHECK(has_number(after, t.quality));
     for (const auto& side : made.core) CHECK(has_number(after, side.quality));
     for (const auto& side : study.picture->before.core) CHECK(has_number(before, side.quality));
-    check_words(before);
-    check_words(after);
+    check_words_in_square(before);
+    check_words_in_square(after);
   }
   CHECK(seen == 20);
 }
@@ -114,7 +114,7 @@ TEST_CASE("each corner has its number, and below it its place in the ring") {
   study.picture = picture_of_shell(mesh, find_slot_shell(mesh, VertexHandle(0), VertexHandle(1)));
   const auto& ring = study.picture->ring;
   const LinkedDrawing drawing = drawn(study, 0, false);
-  check_words(drawing);
+  check_words_in_square(drawing);
   std::vector<std::vector<figure::Text>> texts(ring.size());  // of each corner
   for (std::size_t n = 0; n < drawing.meanings.size(); ++n) {
     const auto* text = std::get_if<figure::Text>(&drawing.drawing.shapes[n]);

@@ -17,9 +17,6 @@ using namespace tetmend::test;
 
 namespace {
 
-using Integers = std::vector<std::int32_t>;
-using Reals = std::vector<double>;
-
 /// Two tets and a triangle in a mixed section, a wall by range, a point by list, a velocity.
 class SmallCgns {
  public:
@@ -73,12 +70,6 @@ class SmallCgns {
  private:
   std::unique_ptr<formats::Hdf5Writer> file_ = formats::make_hdf5("small.cgns", "CGNS");
 };
-
-const Group* find_group(const MeshData& mesh, std::string_view name) {
-  const auto found = std::find_if(mesh.groups.begin(), mesh.groups.end(),
-                                  [&](const Group& group) { return group.name == name; });
-  return found == mesh.groups.end() ? nullptr : &*found;
-}
 
 }  // namespace
 

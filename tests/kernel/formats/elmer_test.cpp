@@ -6,13 +6,14 @@
 
 #include "tests/kernel/formats/damage.h"
 #include "tests/kernel/formats/fixtures.h"
+#include "tests/support/text.h"
 
 using namespace tetmend;
 using namespace tetmend::test;
 
 namespace {
 
-struct Files {
+struct ElmerFiles {
   std::string header = "11 4 5\n7\n202 1\n303 2\n306 1\n404 1\n504 2\n510 1\n605 1\n";
   std::string nodes =
       "1 -1 0 0 0\n2 -1 1 0 0\n3 -1 0 1 0\n4 -1 0 0 1\n5 -1 1 1 1\n6 -1 .5 0 0\n7 -1 .5 .5 0\n"
@@ -35,14 +36,8 @@ struct Files {
   }
 };
 
-Files good() {
+ElmerFiles good() {
   return {};
-}
-
-void replace(std::string& text, std::string_view what, std::string_view with) {
-  const auto at = text.find(what);
-  REQUIRE(at != std::string::npos);
-  text.replace(at, what.size(), with);
 }
 
 }  // namespace
@@ -69,10 +64,10 @@ TEST_CASE("the files of Elmer give bodies and boundaries with labels and names")
 
 TEST_CASE("what the files of Elmer hold survives writing, with parents found from the volumes") {
   const TempFolder folder;
-  Files files = good();
+  ElmerFiles files = good();
   // Nobody believes the parents of a file.
-  replace(files.boundary, "1 5 1 2 303", "1 5 9 9 303");
-  replace(files.elements, "3 2 510 1 2 3 4 6", "3 2 510 1 2 3 5 6");
+  files.boundary = replaced(files.boundary, "1 5 1 2 303", "1 5 9 9 303");
+  files.elements = replaced(files.elements, "3 2 510 1 2 3 4 6", "3 2 510 1 2 3 5 6");
   files.write(folder);
   const MeshData mesh = read_mesh(folder / "mesh.header");
   const TempFolder other;
@@ -100,11 +95,11 @@ TEST_CASE("a triangle of Elmer whose only volume is in front of it has it for it
 
 TEST_CASE("nodes of Elmer may have numbers with gaps, which are not kept") {
   const TempFolder folder;
-  Files files = good();
-  replace(files.nodes, "5 -1 1 1 1", "50 -1 1 1 1");
-  replace(files.elements, "2 3 4 5\n", "2 3 4 50\n");
-  replace(files.elements, "1 2 5 4 3", "1 2 50 4 3");
-  replace(files.boundary, "1 2 5 4", "1 2 50 4");
+  ElmerFiles files = good();
+  files.nodes = replaced(files.nodes, "5 -1 1 1 1", "50 -1 1 1 1");
+  files.elements = replaced(files.elements, "2 3 4 5\n", "2 3 4 50\n");
+  files.elements = replaced(files.elements, "1 2 5 4 3", "1 2 50 4 3");
+  files.boundary = replaced(files.boundary, "1 2 5 4", "1 2 50 4");
   files.write(folder);
   const MeshData mesh = read_mesh(folder / "mesh.header");
   CHECK(mesh.tets[1].vertices[3] == 4);
@@ -113,7 +108,7 @@ TEST_CASE("nodes of Elmer may have numbers with gaps, which are not kept") {
 
 TEST_CASE("names of Elmer that are there already are written anew, and other lines noted") {
   const TempFolder folder;
-  Files files = good();
+  ElmerFiles files = good();
   files.names += "[Solver]\n";
   files.write(folder);
   MeshData mesh = read_mesh(folder / "mesh.header");
@@ -162,39 +157,45 @@ TEST_CASE("a tet of Elmer is located by its line") {
 
 TEST_CASE("bad files of Elmer are refused with file, line and reason") {
   struct Bad {
-    std::string Files::*file;
+    std::string ElmerFiles::*file;
     std::string_view what, with, place, reason;
   };
   const std::vector<Bad> cases = {
-      {&Files::header, "11 4 5", "1000000000 4 5", "mesh.nodes:1: ", "1000000000 nodes cannot fit"},
-      {&Files::header, "11 4 5", "11 1000000000 5", "mesh.elements:1: ", "elements cannot fit"},
-      {&Files::header, "11 4 5", "11 4 1000000000", "mesh.boundary:1: ", "elements cannot fit"},
-      {&Files::header, "11 4 5\n7", "11 4 5\n1000000000", "mesh.header:2: ", "types cannot fit"},
-      {&Files::header, "11 4 5", "11 5 5", "mesh.elements:5: ", "the file ends"},
-      {&Files::header, "11 4 5", "11 3 5", "mesh.elements:4: ", "'4' follows the last element"},
-      {&Files::header, "504 2", "504 3",
+      {&ElmerFiles::header, "11 4 5", "1000000000 4 5",
+       "mesh.nodes:1: ", "1000000000 nodes cannot fit"},
+      {&ElmerFiles::header, "11 4 5", "11 1000000000 5",
+       "mesh.elements:1: ", "elements cannot fit"},
+      {&ElmerFiles::header, "11 4 5", "11 4 1000000000",
+       "mesh.boundary:1: ", "elements cannot fit"},
+      {&ElmerFiles::header, "11 4 5\n7", "11 4 5\n1000000000",
+       "mesh.header:2: ", "types cannot fit"},
+      {&ElmerFiles::header, "11 4 5", "11 5 5", "mesh.elements:5: ", "the file ends"},
+      {&ElmerFiles::header, "11 4 5", "11 3 5",
+       "mesh.elements:4: ", "'4' follows the last element"},
+      {&ElmerFiles::header, "504 2", "504 3",
        "mesh.header:1: ", "hold 2 elements of type 504: expected 3"},
-      {&Files::header, "605 1\n", "605 1\n3", "mesh.header:10: ", "'3' follows the last type"},
-      {&Files::nodes, "5 -1 1 1 1", "4 -1 1 1 1",
+      {&ElmerFiles::header, "605 1\n", "605 1\n3", "mesh.header:10: ", "'3' follows the last type"},
+      {&ElmerFiles::nodes, "5 -1 1 1 1", "4 -1 1 1 1",
        "mesh.nodes:5: ", "'4' of a node appears for the second"},
-      {&Files::nodes, "5 -1 1 1 1", "5 -1 1 a 1", "mesh.nodes:5: ", "'a' is not a number"},
-      {&Files::nodes, "5 -1 1 1 1", "5 -1 1 inf 1", "mesh.nodes:5: ", "not a finite number"},
-      {&Files::elements, "504 2 3 4 5", "504 2 3 4 12",
+      {&ElmerFiles::nodes, "5 -1 1 1 1", "5 -1 1 a 1", "mesh.nodes:5: ", "'a' is not a number"},
+      {&ElmerFiles::nodes, "5 -1 1 1 1", "5 -1 1 inf 1", "mesh.nodes:5: ", "not a finite number"},
+      {&ElmerFiles::elements, "504 2 3 4 5", "504 2 3 4 12",
        "mesh.elements:2: ", "'12' is not the number of a node"},
-      {&Files::elements, "504 2 3 4 5", "303 2 3 4",
+      {&ElmerFiles::elements, "504 2 3 4 5", "303 2 3 4",
        "mesh.elements:2: ", "elements of type 303 cannot be read here"},
-      {&Files::elements, "2 2 504", "2 9999999999 504",
+      {&ElmerFiles::elements, "2 2 504", "2 9999999999 504",
        "mesh.elements:2: ", "expected the number of a body"},
-      {&Files::boundary, "202 1 2", "504 1 2",
+      {&ElmerFiles::boundary, "202 1 2", "504 1 2",
        "mesh.boundary:5: ", "elements of type 504 cannot be read here"},
-      {&Files::names, "wall = 6", "wall", "mesh.names:4: ", "expected '$ name = number'"},
-      {&Files::names, "rim = 9", "rim = 6", "mesh.names:5: ", "the number '6' has a second name"},
+      {&ElmerFiles::names, "wall = 6", "wall", "mesh.names:4: ", "expected '$ name = number'"},
+      {&ElmerFiles::names, "rim = 9", "rim = 6",
+       "mesh.names:5: ", "the number '6' has a second name"},
   };
   const TempFolder folder;
   for (const Bad& bad : cases) {
     CAPTURE(bad.with);
-    Files files = good();
-    replace(files.*bad.file, bad.what, bad.with);
+    ElmerFiles files = good();
+    files.*bad.file = replaced(files.*bad.file, bad.what, bad.with);
     files.write(folder);
     const std::string error = error_of_reading(folder / "mesh.header");
     CHECK_MESSAGE(error.starts_with(bad.place), error);

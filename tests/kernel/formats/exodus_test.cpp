@@ -18,9 +18,6 @@ using namespace tetmend::test;
 
 namespace {
 
-using Integers = std::vector<std::int32_t>;
-using Reals = std::vector<double>;
-
 /// Two blocks of a tet each and one of a shell, as Cubit and others write them.
 struct SmallExodus {
   Reals coordinates = {0, 1, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 1, -1};
@@ -71,12 +68,6 @@ struct SmallExodus {
     out.commit();
   }
 };
-
-const Group* find_group(const MeshData& mesh, std::string_view name) {
-  const auto found = std::find_if(mesh.groups.begin(), mesh.groups.end(),
-                                  [&](const Group& group) { return group.name == name; });
-  return found == mesh.groups.end() ? nullptr : &*found;
-}
 
 }  // namespace
 

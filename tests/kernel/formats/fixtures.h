@@ -3,6 +3,7 @@
 // and errors as text.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
@@ -27,6 +28,10 @@
 #include "kernel/mesh_data.h"
 
 namespace tetmend::test {
+
+/// Arrays of a file.
+using Integers = std::vector<std::int32_t>;
+using Reals = std::vector<double>;
 
 /// What is told of a mesh, but for its tets of both orders.
 inline std::vector<std::string> notes_but_of_orders(const MeshData& mesh) {
@@ -72,6 +77,27 @@ inline std::string read_text(const std::filesystem::path& file) {
   text << std::ifstream(file, std::ios::binary).rdbuf();
   return text.str();
 }
+
+/// The mesh of a file of this name and content.
+inline MeshData read_as(const TempFolder& folder, std::string_view name, std::string_view content) {
+  write_text(folder / name, content);
+  return read_mesh(folder / name);
+}
+
+/// As above, in a folder that is gone afterwards.
+inline MeshData read_as(std::string_view name, std::string_view content) {
+  return read_as(TempFolder(), name, content);
+}
+
+/// The first group of this name, of any dimension; null if there is none.
+inline const Group* find_group(const MeshData& mesh, std::string_view name) {
+  const auto found = std::find_if(mesh.groups.begin(), mesh.groups.end(),
+                                  [&](const Group& group) { return group.name == name; });
+  return found == mesh.groups.end() ? nullptr : &*found;
+}
+
+/// How text files of MEDIT begin.
+inline const std::string kMeditHead = "MeshVersionFormatted 2\nDimension 3\n";
 
 /// What the error says without the folder of the file; "no error" if there is none.
 inline std::string error_of_reading(const std::filesystem::path& file) {

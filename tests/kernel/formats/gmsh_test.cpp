@@ -9,6 +9,7 @@
 #include "kernel/mesh_view.h"
 #include "tests/kernel/formats/damage.h"
 #include "tests/kernel/formats/fixtures.h"
+#include "tests/support/text.h"
 
 using namespace tetmend;
 using namespace tetmend::test;
@@ -20,12 +21,12 @@ constexpr std::array<std::string_view, 4> kVariants = {"2.2 ASCII", "2.2 binary"
 
 // Two tets with a common face, in volumes 1 and 2. Volume 1 is in two groups, surface 3 in none.
 // Numbers of nodes and elements have gaps and no order.
-constexpr std::string_view kNames =
+constexpr std::string_view kPhysicalNames =
     "$PhysicalNames\n5\n0 7 \"corner\"\n2 30 \"inlet\"\n3 10 \"left steel\"\n3 20 \"right\"\n"
     "3 25 \"all\"\n$EndPhysicalNames\n";
 
 std::string text_4() {
-  return "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n" + std::string(kNames) +
+  return "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n" + std::string(kPhysicalNames) +
          "$Entities\n1 1 2 2\n"
          "1 0 0 0 1 7 \n"
          "4 0 0 0 1 0 0 0 2 1 -1 \n"
@@ -83,7 +84,7 @@ MeshData two_volumes() {
 }
 
 std::string text_2() {
-  return "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n" + std::string(kNames) +
+  return "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n" + std::string(kPhysicalNames) +
          "$Nodes\n5\n2 0 0 0\n70 1 0 0\n30 0 1 0\n900 0.1 0.2 -1\n40 0.25 0.125 1\n$EndNodes\n"
          "$Elements\n10\n"
          "1 15 2 7 1 2\n"
@@ -100,24 +101,13 @@ std::string text_2() {
          "$Periodic\n1\n2 5 3\nAffine 1 0 0 2 0 1 0 0 0 0 1 0 0 0 0 1\n1\n2 40\n$EndPeriodic\n";
 }
 
-MeshData read_text(const TempFolder& folder, std::string_view text) {
-  write_text(folder / "a.msh", text);
-  return read_mesh(folder / "a.msh");
-}
-
 std::string without(std::string text, std::string_view section) {
   const std::size_t begin = text.find(fmt::format("${}\n", section));
   const std::string end = fmt::format("$End{}\n", section);
   return text.erase(begin, text.find(end) + end.size() - begin);
 }
 
-std::string replaced(std::string text, std::string_view what, std::string_view by) {
-  const std::size_t at = text.find(what);
-  REQUIRE(at != std::string::npos);
-  return text.replace(at, what.size(), by);
-}
-
-bool same_extras(const MeshData& a, const MeshData& b) {
+bool same_gmsh_extras(const MeshData& a, const MeshData& b) {
   return a.tet_parts == b.tet_parts && a.triangle_parts == b.triangle_parts &&
          a.edge_parts == b.edge_parts && a.point_entities == b.point_entities &&
          a.groups == b.groups && a.entities == b.entities && a.periodic == b.periodic &&
@@ -158,11 +148,11 @@ TEST_CASE("names of groups and views survive in .msh whatever their signs; of li
 
 TEST_CASE("an MSH file of version 4.1 is read with its groups, entities, links and views") {
   const TempFolder folder;
-  const MeshData mesh = read_text(folder, text_4());
+  const MeshData mesh = read_as(folder, "a.msh", text_4());
   const MeshData expected = two_volumes();
   CHECK(mesh.variant == "4.1 ASCII");
   CHECK(same_mesh(mesh, expected));
-  CHECK(same_extras(mesh, expected));
+  CHECK(same_gmsh_extras(mesh, expected));
   REQUIRE(mesh.point_data.size() == 1);
   CHECK(mesh.point_data[0].name == "heat");
   const auto& heat = std::get<std::vector<double>>(mesh.point_data[0].values);
@@ -179,14 +169,14 @@ TEST_CASE("what an MSH file holds survives writing in every variant of version 4
   const TempFolder folder;
   for (const std::string variant : {"4.1 ASCII", "4.1 binary"}) {
     CAPTURE(variant);
-    MeshData mesh = read_text(folder, text_4());
+    MeshData mesh = read_as(folder, "a.msh", text_4());
     mesh.variant = variant;
     write_mesh(folder / "b.msh", mesh);
     const MeshData again = read_mesh(folder / "b.msh");
     CHECK(again.variant == variant);
     CHECK(again.notes.empty());
     CHECK(same_mesh(again, mesh));
-    CHECK(same_extras(again, mesh));
+    CHECK(same_gmsh_extras(again, mesh));
     CHECK(again.point_data.size() == 1);
   }
 }
@@ -198,7 +188,7 @@ TEST_CASE("an MSH file that was written once is written again with the same byte
       for (const std::string_view to : kVariants) {
         CAPTURE(from);
         CAPTURE(to);
-        MeshData mesh = read_text(folder, text);
+        MeshData mesh = read_as(folder, "a.msh", text);
         mesh.variant = from;
         write_mesh(folder / "b.msh", mesh);
         mesh = read_mesh(folder / "b.msh");
@@ -219,7 +209,7 @@ TEST_CASE("an element that version 2.2 lists for each of its groups is one eleme
   const TempFolder folder;
   for (const std::string_view variant : kVariants) {
     CAPTURE(variant);
-    MeshData mesh = read_text(folder, text_2());
+    MeshData mesh = read_as(folder, "a.msh", text_2());
     mesh.variant = variant;
     write_mesh(folder / "b.msh", mesh);
     mesh = read_mesh(folder / "b.msh");
@@ -242,7 +232,7 @@ TEST_CASE("an element that version 2.2 lists for each of its groups is one eleme
     CHECK(mesh.other_elements[1].vtk_type == 1);
     CHECK(mesh.periodic.size() == 1);
   }
-  CHECK(notes_but_of_orders(read_text(folder, text_2())) ==
+  CHECK(notes_but_of_orders(read_as(folder, "a.msh", text_2())) ==
         std::vector<std::string>{"the partitions of elements are not kept"});
 }
 
@@ -251,14 +241,14 @@ TEST_CASE("elements of a group that are listed behind all of another are put tog
   std::string text = text_2();
   text = replaced(text, "6 4 2 25 1 2 30 70 40\n7 4 2 25 1 2 70 30 900\n",
                   "7 4 2 25 1 2 70 30 900\n6 4 2 25 1 70 2 30 40\n");
-  const MeshData mesh = read_text(folder, text);
+  const MeshData mesh = read_as(folder, "a.msh", text);
   CHECK(mesh.tets.size() == 2);
   CHECK(find_group(mesh, 3, 25)->parts == mesh.tet_parts);
 }
 
 TEST_CASE("version 2.2 lists an element once for each of its groups again") {
   const TempFolder folder;
-  write_mesh(folder / "b.msh", read_text(folder, text_2()));
+  write_mesh(folder / "b.msh", read_as(folder, "a.msh", text_2()));
   const std::string text = test::read_text(folder / "b.msh");
   CHECK(text.find("$Elements\n10\n") != std::string::npos);
   CHECK(text.find("10 1 1 2 4 3\n") != std::string::npos);
@@ -313,10 +303,10 @@ TEST_CASE("entities of partitions are parts of their parents; what lies between 
   text = replaced(text, "3 1 4 1\n", "2 9 2 1\n55 2 30 40\n3 7 4 1\n");
   text = replaced(text, "3 1 6 2\n", "3 7 6 2\n");
   text = replaced(text, "7 8 1 99", "8 9 1 99");
-  const MeshData mesh = read_text(folder, text);
+  const MeshData mesh = read_as(folder, "a.msh", text);
   const MeshData expected = two_volumes();
   CHECK(same_mesh(mesh, expected));
-  CHECK(same_extras(mesh, expected));
+  CHECK(same_gmsh_extras(mesh, expected));
   CHECK(std::find(mesh.notes.begin(), mesh.notes.end(),
                   "the partitions of elements are not kept") != mesh.notes.end());
 }
@@ -359,7 +349,7 @@ TEST_CASE("an MSH file with a byte changed or cut away never crashes") {
   for (const std::string& text : {text_2(), text_4()}) {
     for (const std::string_view variant : kVariants) {
       CAPTURE(variant);
-      MeshData mesh = read_text(folder, text);
+      MeshData mesh = read_as(folder, "a.msh", text);
       mesh.variant = variant;
       write_mesh(folder / "b.msh", mesh);
       change_each_byte(folder / "b.msh", folder / "b.msh");
@@ -394,7 +384,7 @@ TEST_CASE("names of groups of an MSH file may lack their quotes, and get them") 
   const TempFolder folder;
   for (const std::string name : {"inlet", "two  words"}) {
     for (const std::string end : {"\n", " \r\n"}) {
-      const MeshData mesh = read_text(folder, replaced(text_2(), "\"inlet\"\n", name + end));
+      const MeshData mesh = read_as(folder, "a.msh", replaced(text_2(), "\"inlet\"\n", name + end));
       const auto found = std::find_if(mesh.groups.begin(), mesh.groups.end(),
                                       [&](const Group& group) { return group.name == name; });
       CHECK(found != mesh.groups.end());
@@ -406,14 +396,14 @@ TEST_CASE("names of groups of an MSH file may lack their quotes, and get them") 
 
 TEST_CASE("nodes of an MSH file of version 2.2 may have parameters") {
   const TempFolder folder;
-  const MeshData plain = read_text(folder, text_2());
+  const MeshData plain = read_as(folder, "a.msh", text_2());
   const std::string nodes =
       "$ParametricNodes\n5\n2 0 0 0 0 1\n70 1 0 0 1 4 0.5\n30 0 1 0 2 5 0.25 0.75\n"
       "900 0.1 0.2 -1 3 1\n40 0.25 0.125 1 3 1\n$EndParametricNodes\n";
   const std::string text = text_2();
   const std::size_t begin = text.find("$Nodes");
   const std::size_t end = text.find("$Elements");
-  const MeshData mesh = read_text(folder, text.substr(0, begin) + nodes + text.substr(end));
+  const MeshData mesh = read_as(folder, "a.msh", text.substr(0, begin) + nodes + text.substr(end));
   CHECK(mesh.points == plain.points);
   CHECK(mesh.tets == plain.tets);
   const auto cut = text.substr(0, begin) + replaced(nodes, "4 0.5", "4") + text.substr(end);
@@ -423,8 +413,8 @@ TEST_CASE("nodes of an MSH file of version 2.2 may have parameters") {
 
 TEST_CASE("an MSH file of version 4.1 may have sizes of 4 bytes") {
   const TempFolder folder;
-  CHECK(read_text(folder, replaced(text_4(), "4.1 0 8", "4.1 0 4")).tets ==
-        read_text(folder, text_4()).tets);
+  CHECK(read_as(folder, "a.msh", replaced(text_4(), "4.1 0 8", "4.1 0 4")).tets ==
+        read_as(folder, "a.msh", text_4()).tets);
   std::string bytes = "$MeshFormat\n4.1 1 4\n";
   const auto put = [&](auto value) {
     bytes.append(reinterpret_cast<const char*>(&value), sizeof(value));
@@ -446,7 +436,7 @@ TEST_CASE("an MSH file of version 4.1 may have sizes of 4 bytes") {
   put_tags({3, 1, 4});
   put_sizes({1, 7, 1, 2, 3, 9});
   bytes += "\n$EndElements\n";
-  const MeshData mesh = read_text(folder, bytes);
+  const MeshData mesh = read_as(folder, "a.msh", bytes);
   CHECK(mesh.tets.size() == 1);
   CHECK(mesh.tets[0].vertices == std::array<std::uint32_t, 4>{0, 1, 2, 3});
   CHECK(mesh.points[3] == Point(0, 0, 1));

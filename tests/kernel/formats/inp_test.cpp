@@ -12,6 +12,7 @@
 #include "kernel/formats/inp_types.h"
 #include "tests/kernel/formats/damage.h"
 #include "tests/kernel/formats/fixtures.h"
+#include "tests/support/text.h"
 #include "tests/support/zoo.h"
 
 using namespace tetmend;
@@ -55,18 +56,6 @@ constexpr std::string_view kDeck =
     "** the end\n"
     "*END STEP\n";
 
-MeshData read_text(const TempFolder& folder, std::string_view text) {
-  write_text(folder / "a.inp", text);
-  return read_mesh(folder / "a.inp");
-}
-
-std::string replaced(std::string_view text, std::string_view what, std::string_view by) {
-  std::string result(text);
-  const std::size_t at = result.find(what);
-  REQUIRE_MESSAGE(at != std::string::npos, what);
-  return result.replace(at, what.size(), by);
-}
-
 const Group& group(const MeshData& mesh, int dimension, std::string_view name) {
   for (const Group& each : mesh.groups) {
     if (each.dimension == dimension && each.name == name) return each;
@@ -81,7 +70,7 @@ bool has_group(const MeshData& mesh, std::string_view name) {
 }
 
 /// Numbers of the tets of a group.
-std::vector<std::int64_t> tets_of(const MeshData& mesh, std::string_view name) {
+std::vector<std::int64_t> numbers_of_tets(const MeshData& mesh, std::string_view name) {
   std::vector<std::int64_t> numbers;
   const std::vector<Label>& parts = group(mesh, 3, name).parts;
   for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
@@ -92,7 +81,8 @@ std::vector<std::int64_t> tets_of(const MeshData& mesh, std::string_view name) {
   return numbers;
 }
 
-std::vector<std::array<std::uint32_t, 3>> triangles_of(const MeshData& mesh, const Group& of) {
+std::vector<std::array<std::uint32_t, 3>> triangles_of_group(const MeshData& mesh,
+                                                             const Group& of) {
   std::vector<std::array<std::uint32_t, 3>> found;
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
     if (std::find(of.parts.begin(), of.parts.end(), mesh.triangle_parts[i]) == of.parts.end()) {
@@ -108,12 +98,12 @@ std::vector<std::array<std::uint32_t, 3>> triangles_of(const MeshData& mesh, con
 
 /// Reads, writes and reads again.
 MeshData round_trip(const TempFolder& folder, std::string_view text) {
-  write_mesh(folder / "b.inp", read_text(folder, text));
+  write_mesh(folder / "b.inp", read_as(folder, "a.inp", text));
   return read_mesh(folder / "b.inp");
 }
 
 /// Without the remarks, which have lines of the file.
-std::vector<std::string> deck_of(const MeshData& mesh) {
+std::vector<std::string> inp_deck_of(const MeshData& mesh) {
   std::vector<std::string> deck = mesh.deck;
   if (!deck.empty() && deck.back().starts_with('R')) deck.pop_back();
   return deck;
@@ -123,7 +113,7 @@ bool same_content(const MeshData& a, const MeshData& b) {
   return same_mesh(a, b) && a.tet_parts == b.tet_parts && a.triangle_parts == b.triangle_parts &&
          a.groups == b.groups && a.other_elements == b.other_elements &&
          a.point_numbers == b.point_numbers && a.tet_numbers == b.tet_numbers &&
-         a.triangle_numbers == b.triangle_numbers && deck_of(a) == deck_of(b);
+         a.triangle_numbers == b.triangle_numbers && inp_deck_of(a) == inp_deck_of(b);
 }
 
 constexpr std::string_view kSmall =
@@ -134,7 +124,7 @@ constexpr std::string_view kSmall =
 
 TEST_CASE("a deck is read with sets, surfaces, loads and the numbers of nodes and elements") {
   const TempFolder folder;
-  const MeshData mesh = read_text(folder, kDeck);
+  const MeshData mesh = read_as(folder, "a.inp", kDeck);
   CHECK(is_sound(mesh));
   CHECK(mesh.notes.empty());
   CHECK(mesh.points.size() == 10);
@@ -145,22 +135,22 @@ TEST_CASE("a deck is read with sets, surfaces, loads and the numbers of nodes an
   REQUIRE(mesh.other_elements.size() == 1);
   CHECK(mesh.other_elements[0].vtk_type == 12);
   CHECK(mesh.other_elements[0].numbers == std::vector<std::int64_t>{20});
-  CHECK(tets_of(mesh, "Left part") == std::vector<std::int64_t>{7});
-  CHECK(tets_of(mesh, "tets") == std::vector<std::int64_t>{7, 3});
-  CHECK(tets_of(mesh, "ALL") == std::vector<std::int64_t>{7, 3});
+  CHECK(numbers_of_tets(mesh, "Left part") == std::vector<std::int64_t>{7});
+  CHECK(numbers_of_tets(mesh, "tets") == std::vector<std::int64_t>{7, 3});
+  CHECK(numbers_of_tets(mesh, "ALL") == std::vector<std::int64_t>{7, 3});
   CHECK(group(mesh, 0, "some").members == std::vector<std::uint32_t>{0, 1, 9});
   CHECK(group(mesh, 0, "more").members == std::vector<std::uint32_t>{0, 1, 3, 9});
   // The shell lies on face 2 of the tet 7, as seen from the other side.
-  CHECK(triangles_of(mesh, group(mesh, 2, "top")) ==
+  CHECK(triangles_of_group(mesh, group(mesh, 2, "top")) ==
         std::vector<std::array<std::uint32_t, 3>>{{0, 1, 3}});
-  CHECK(triangles_of(mesh, group(mesh, 2, "DLOAD_2")) ==
+  CHECK(triangles_of_group(mesh, group(mesh, 2, "DLOAD_2")) ==
         std::vector<std::array<std::uint32_t, 3>>{{0, 1, 2}, {1, 3, 4}});
   CHECK_FALSE(has_group(mesh, "_top"));
 }
 
 TEST_CASE("a deck that is written has its other lines word for word, and is read back the same") {
   const TempFolder folder;
-  const MeshData mesh = read_text(folder, kDeck);
+  const MeshData mesh = read_as(folder, "a.inp", kDeck);
   CHECK(not_written(folder / "b.inp", mesh).empty());
   const MeshData again = round_trip(folder, kDeck);
   const std::string text = read_text(folder / "b.inp");
@@ -203,7 +193,7 @@ TEST_CASE(
   const auto number = plain.point_numbers[inner];
   const std::vector<std::uint32_t> expected = {static_cast<std::uint32_t>(inner)};
   const auto required = [&](std::string_view more) {
-    return read_text(folder, cube + std::string(more)).required_vertices;
+    return read_as(folder, "a.inp", cube + std::string(more)).required_vertices;
   };
   CHECK(required(fmt::format("*STEP\n*CLOAD\n{}, 3, 1.\n", number)) == expected);
   CHECK(required(fmt::format("*EQUATION\n2\n1, 1, 1., {}, 1, -1.\n", number)) == expected);
@@ -245,10 +235,10 @@ TEST_CASE(
   const std::string cube = read_text(folder / "cube.inp");
   const auto line = 1 + std::count(cube.begin(), cube.end(), '\n');
   CHECK(deck_remarks(read_mesh(folder / "cube.inp")).empty());
-  const MeshData mesh =
-      read_text(folder, cube +
-                            "*CLOAD\n32, 1, 1.\n33, 1, 1.\n*CLOAD\n1, 1, 1.\n*UNHEARD\n32\n"
-                            "*NSET, NSET=\"pair\"\n34, 37\n");
+  const MeshData mesh = read_as(folder, "a.inp",
+                                cube +
+                                    "*CLOAD\n32, 1, 1.\n33, 1, 1.\n*CLOAD\n1, 1, 1.\n*UNHEARD\n32\n"
+                                    "*NSET, NSET=\"pair\"\n34, 37\n");
   const std::string file = (folder / "a.inp").string();
   CHECK(deck_remarks(mesh) ==
         std::vector<std::string>{
@@ -314,7 +304,7 @@ TEST_CASE("an improved deck keeps numbers, sets, surfaces and lines of what has 
   const std::string written = read_text(folder / "b.inp");
   CHECK(written.ends_with(kEnd));
   CHECK(written.find("*ELEMENT, TYPE=C3D4T, ELSET=Soft\n") != std::string::npos);
-  CHECK(triangles_of(after, group(after, 2, "side")).size() == faces);
+  CHECK(triangles_of_group(after, group(after, 2, "side")).size() == faces);
   CHECK(after.triangles.size() == before.triangles.size());
   // A number means the same tet, or is new.
   const std::int64_t most = *std::max_element(before.tet_numbers.begin(), before.tet_numbers.end());
@@ -341,7 +331,7 @@ TEST_CASE("an improved deck keeps numbers, sets, surfaces and lines of what has 
     CHECK(volume(after, label) == doctest::Approx(volume(before, label)).epsilon(1e-9));
   }
   // Every face of the surface is the face of its tet that lies on the side.
-  for (const auto& triangle : triangles_of(after, group(after, 2, "side"))) {
+  for (const auto& triangle : triangles_of_group(after, group(after, 2, "side"))) {
     for (const auto v : triangle) CHECK(after.points[v].x() == low);
   }
 }
@@ -352,7 +342,7 @@ TEST_CASE("elements of second order come back with their type, in two lines or i
   for (int i = 1; i <= 10; ++i) text += fmt::format("{}, {}, {}, {}\n", i, i * i, i % 3, i % 4);
   text += "*ELEMENT, TYPE=C3D10M, ELSET=A\n5, 1, 2, 3, 4, 5, 6, 7,\n8, 9, 10\n";
   text += "*ELEMENT, TYPE=T3D3, ELSET=B\n6, 1, 5, 2\n*SURFACE, NAME=S\nA, S3\n";
-  const MeshData mesh = read_text(folder, text);
+  const MeshData mesh = read_as(folder, "a.inp", text);
   CHECK(mesh.tets.size() == 1);
   CHECK(mesh.mid_nodes.size() == 6);
   REQUIRE(mesh.edges.size() == 1);
@@ -377,10 +367,10 @@ TEST_CASE("a set whose name begins like that of a label is none") {
 
 TEST_CASE("a comment under a set of nothing stays there, however often the deck is written") {
   const TempFolder folder;
-  write_mesh(folder / "b.inp", read_text(folder,
-                                         "*NODE\n1, 0, 0, 0\n*NSET, NSET=none\n"
-                                         "*NSET, NSET=nor\n** here\n*NSET, NSET=one\n"
-                                         "** above\n1\n"));
+  write_mesh(folder / "b.inp", read_as(folder, "a.inp",
+                                       "*NODE\n1, 0, 0, 0\n*NSET, NSET=none\n"
+                                       "*NSET, NSET=nor\n** here\n*NSET, NSET=one\n"
+                                       "** above\n1\n"));
   const std::string once = read_text(folder / "b.inp");
   CHECK(once.find("NSET=nor\n** here\n** above\n*NSET, NSET=one\n") != once.npos);
   write_mesh(folder / "c.inp", read_mesh(folder / "b.inp"));
@@ -389,10 +379,10 @@ TEST_CASE("a comment under a set of nothing stays there, however often the deck 
 
 TEST_CASE("data never become parameters of a keyword whose line ended with a comma") {
   const TempFolder folder;
-  const MeshData mesh = read_text(
-      folder,
-      "*NODE, \"a,\n*X\n*NODE\n1, 0, 0, 0\n2, 1, 0, 0\n3, 0, 1, 0\n4, 0, 0, 1\n5, 1, 1, 1\n"
-      "*ELEMENT, TYPE=C3D4,\n*X\n*ELEMENT, TYPE=C3D4\n1, 1, 2, 3, 4\n2, 2, 3, 4, 5\n");
+  const MeshData mesh =
+      read_as(folder, "a.inp",
+              "*NODE, \"a,\n*X\n*NODE\n1, 0, 0, 0\n2, 1, 0, 0\n3, 0, 1, 0\n4, 0, 0, 1\n5, 1, 1, 1\n"
+              "*ELEMENT, TYPE=C3D4,\n*X\n*ELEMENT, TYPE=C3D4\n1, 1, 2, 3, 4\n2, 2, 3, 4, 5\n");
   REQUIRE(mesh.tets.size() == 2);
   write_mesh(folder / "b.inp", mesh);
   const MeshData again = read_mesh(folder / "b.inp");
@@ -498,7 +488,7 @@ TEST_CASE("included files with a mesh are written into the deck, the others stay
   write_text(folder / "steel.inc", "*MATERIAL, NAME=steel\n*ELASTIC\n1., 0.\n");
   const std::string text =
       "*HEADING\nx\n*INCLUDE, INPUT=sub/mesh.inc\n*INCLUDE, input=steel.inc\n*STEP\n";
-  const MeshData mesh = read_text(folder, text);
+  const MeshData mesh = read_as(folder, "a.inp", text);
   CHECK(mesh.tets.size() == 1);
   CHECK(not_written(folder / "b.inp", mesh).empty());
   const auto notes = not_written(folder / "sub/b.inp", mesh);
@@ -523,7 +513,7 @@ TEST_CASE("a deck of one part and instance keeps what is in its assembly") {
       "*Node\n1, 5, 5, 5\n*Nset, nset=ref\n1,\n*Nset, nset=E, instance=P-1\n1, 2\n"
       "*Elset, elset=_s_S1, internal, instance=P-1\n1,\n*Surface, type=ELEMENT, name=s\n_s_S1, S1\n"
       "*End Assembly\n*Boundary\nP-1.3, 1\n";
-  const MeshData mesh = read_text(folder, text);
+  const MeshData mesh = read_as(folder, "a.inp", text);
   CHECK(mesh.points.size() == 4);
   CHECK(group(mesh, 0, "E").members == std::vector<std::uint32_t>{0, 1});
   round_trip(folder, text);
@@ -540,7 +530,7 @@ TEST_CASE("an *ELEMENT without rows stays in the deck, where its part counts as 
             std::string(kSmall) + "*END PART\n",
         std::string(kSmall) + "*ELEMENT, TYPE=C3D4, ELSET=F\n"}) {
     CAPTURE(deck);
-    const MeshData mesh = read_text(folder, deck);
+    const MeshData mesh = read_as(folder, "a.inp", deck);
     CHECK(mesh.tets.size() == 1);
     write_mesh(folder / "b.inp", mesh);
     const std::string text = test::read_text(folder / "b.inp");
@@ -554,12 +544,13 @@ TEST_CASE("an *ELEMENT without rows stays in the deck, where its part counts as 
 
 TEST_CASE("what a deck says of tets by number and is not a face is noted") {
   const TempFolder folder;
-  const MeshData mesh = read_text(folder, std::string(kSmall) + "*DLOAD\n1, GRAV, 9.81, 0, 0, 1\n");
+  const MeshData mesh =
+      read_as(folder, "a.inp", std::string(kSmall) + "*DLOAD\n1, GRAV, 9.81, 0, 0, 1\n");
   REQUIRE(mesh.notes.size() == 1);
   CHECK(mesh.notes[0].ends_with(
       "a.inp:9 of *DLOAD names the tet 1: an improved mesh may not have it"));
-  const MeshData dropped =
-      read_text(folder, std::string(kSmall) + "*ELSET, ELSET=T\n1\n*SURFACE, NAME=S\nT, S1\n");
+  const MeshData dropped = read_as(
+      folder, "a.inp", std::string(kSmall) + "*ELSET, ELSET=T\n1\n*SURFACE, NAME=S\nT, S1\n");
   REQUIRE(dropped.notes.size() == 1);
   CHECK(dropped.notes[0].starts_with("the set of elements 'T' is not kept"));
   CHECK(not_written(folder / "a.vtk", dropped).back() ==
@@ -572,7 +563,7 @@ TEST_CASE("where a deck has the greatest number there is, new ones are those tha
     CAPTURE(greatest);
     std::string deck = replaced(kSmall, "4, 0, 0, 1", greatest + ", 0, 0, 1");
     deck = replaced(deck, "1, 1, 2, 3, 4", greatest + ", 1, 2, 3, " + greatest);
-    MeshData mesh = read_text(folder, deck + "*ELEMENT, TYPE=SPRINGA\n1, 1, 2\n");
+    MeshData mesh = read_as(folder, "a.inp", deck + "*ELEMENT, TYPE=SPRINGA\n1, 1, 2\n");
     mesh.points.emplace_back(1, 2, 3);
     mesh.point_numbers.push_back(0);
     mesh.tets.push_back({{0, 1, 2, 4}, mesh.tets[0].label});
@@ -697,7 +688,7 @@ TEST_CASE("a mesh that stands in the instance is read, and written where it stoo
                "3., 0., 0.\n3., 0., 0., 3., 0., 1., 90.\n" + std::string(kNodes) +
                    std::string(kElements) + "*Elset, elset=Set-1\n1,\n" + std::string(kSection)) +
       "*Nset, nset=Fix, instance=P-1\n1, 2\n*End Assembly\n*Boundary\nFix, 1, 3\nP-1.4, 1\n";
-  const MeshData mesh = read_text(folder, deck);
+  const MeshData mesh = read_as(folder, "a.inp", deck);
   CHECK(mesh.points.size() == 4);
   CHECK(mesh.tets == std::vector<MeshData::Tet>{{{0, 1, 2, 3}, 1}});
   CHECK(group(mesh, 0, "Fix").members == std::vector<std::uint32_t>{0, 1});
@@ -726,7 +717,7 @@ TEST_CASE("parts without tets come back word for word beside the mesh") {
                                               "*Elset, elset=Set-1\n1,\n" + std::string(kSection));
   for (const std::string& deck : {rest + mesh_part + part("Point", "") + assembly,
                                   mesh_part + part("Point", "") + rest + assembly}) {
-    const MeshData mesh = read_text(folder, deck);
+    const MeshData mesh = read_as(folder, "a.inp", deck);
     CHECK(mesh.points.size() == 4);
     CHECK(mesh.tets.size() == 1);
     CHECK(mesh.required_vertices.empty());
@@ -752,7 +743,7 @@ TEST_CASE("several parts have numbers and sets of their own, and so have their n
     const std::size_t second = text.find("*Element", text.find("name=Q"));
     return text.replace(text.find("1, 1, 2, 3, 4", second), 13, "1, 1, 2, 3, 9");
   }();
-  MeshData mesh = read_text(folder, fixed);
+  MeshData mesh = read_as(folder, "a.inp", fixed);
   CHECK(mesh.points.size() == 9);
   CHECK(mesh.tets == std::vector<MeshData::Tet>{{{0, 1, 2, 3}, 1}, {{4, 5, 6, 7}, 2}});
   write_mesh(folder / "b.inp", mesh);
@@ -793,8 +784,8 @@ TEST_CASE("numbers of one part mean nothing in another, however they follow each
   // A part whose nodes are missing.
   CHECK(error(kElements, other).find("'1' is not the number of a node") != std::string::npos);
   // A range ends where the numbers of its part do.
-  const MeshData mesh =
-      read_text(folder, deck(other, replaced(other, "generate\n1, 1, 1", "generate\n0, 2, 1")));
+  const MeshData mesh = read_as(
+      folder, "a.inp", deck(other, replaced(other, "generate\n1, 1, 1", "generate\n0, 2, 1")));
   REQUIRE(mesh.notes.size() == 1);
   CHECK(mesh.notes[0].ends_with("ends with 2, but the greatest number of an element is 1"));
   write_mesh(folder / "b.inp", mesh);
@@ -822,7 +813,7 @@ TEST_CASE(
       part("P", std::string(kNodes) + std::string(kElements) + "*Elset, elset=Set-1\n1,\n" +
                     std::string(kSection)) +
       assembly + "*Output, field\n*Element Output, elset=keep\nS,\n*Dsload\nP-2.none, P, 1.\n";
-  const MeshData mesh = read_text(folder, deck);
+  const MeshData mesh = read_as(folder, "a.inp", deck);
   CHECK(mesh.tets.size() == 1);
   CHECK(mesh.triangles.size() == 2);
   write_mesh(folder / "b.inp", mesh);
@@ -852,7 +843,7 @@ TEST_CASE("a surface keeps the faces of instances that are not in the mesh") {
       "*Elset, elset=both, instance=S-1\n1, inner\n*Elset, elset=both, instance=P-1\n1,\n"
       "*Elset, elset=both, instance=S-1, generate\n4, 6, 2\n"
       "*Surface, type=ELEMENT, name=x\nboth, S1\n*End Assembly\n";
-  write_mesh(folder / "b.inp", read_text(folder, deck));
+  write_mesh(folder / "b.inp", read_as(folder, "a.inp", deck));
   CHECK(read_text(folder / "b.inp")
             .find("name=x\nP-1.1, S1\nS-1.1, S1\nS-1.inner, S1\nS-1.4, S1\n"
                   "S-1.6, S1\n*End Assembly\n") != std::string::npos);
@@ -882,7 +873,7 @@ TEST_CASE("a deck of Windows keeps its line breaks, and gets no others") {
   std::string windows;
   for (const char c : deck) windows += c == '\n' ? "\r\n" : std::string(1, c);
   const std::string comment = "** as it stands\n";  // of another system
-  MeshData mesh = read_text(folder, windows + comment);
+  MeshData mesh = read_as(folder, "a.inp", windows + comment);
   write_mesh(folder / "b.inp", mesh);
   CHECK(test::read_text(folder / "b.inp") == windows + comment);
   mesh.points.emplace_back(5, 5, 5);
@@ -901,7 +892,7 @@ TEST_CASE("a set of nodes whose order matters comes back line by line, as often 
       std::string(kNodes) + std::string(kElements) +
       "*Nset, nset=o, unsorted\n** first\n 4, 1\n*Nset, nset=p\n2,\n"
       "*Nset, nset=o, unsorted\n3, p\n*Nset, nset=g, unsorted, generate\n2, 4, 2\n";
-  const MeshData mesh = read_text(folder, deck);
+  const MeshData mesh = read_as(folder, "a.inp", deck);
   CHECK(group(mesh, 0, "o").members == std::vector<std::uint32_t>{0, 1, 2, 3});
   CHECK(group(mesh, 0, "g").members == std::vector<std::uint32_t>{1, 3});
   write_mesh(folder / "b.inp", mesh);
@@ -913,7 +904,7 @@ TEST_CASE("a keyword goes on behind a comma and comments, but no line of numbers
   const std::string deck =
       "*Node,\n1, 0, 0, 0\n2, 1, 0, 0\n3, 0, 1, 0\n4, 0, 0, 1\n"
       "*Element,\n** the, type\n\n type=C3D4,\n** the set\n  elset=E,\n1, 1, 2, 3, 4\n";
-  const MeshData mesh = read_text(folder, deck);
+  const MeshData mesh = read_as(folder, "a.inp", deck);
   CHECK(mesh.points.size() == 4);
   CHECK(mesh.tets.size() == 1);
   CHECK(group(mesh, 3, "E").name == "E");
@@ -921,8 +912,9 @@ TEST_CASE("a keyword goes on behind a comma and comments, but no line of numbers
 
 TEST_CASE("a range of a set may end behind the greatest number, with a note") {
   const TempFolder folder;
-  const MeshData mesh = read_text(
-      folder, std::string(kNodes) + std::string(kElements) +
+  const MeshData mesh =
+      read_as(folder, "a.inp",
+              std::string(kNodes) + std::string(kElements) +
                   "*Nset, nset=all, generate\n1, 1000\n*Elset, elset=none, generate\n7, 9\n"
                   "*Nset, nset=exact, generate\n1, 4\n");
   CHECK(group(mesh, 0, "all").members.size() == 4);

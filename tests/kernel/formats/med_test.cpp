@@ -78,12 +78,6 @@ class SmallMed {
   std::unique_ptr<formats::Hdf5Writer> file_ = formats::make_hdf5("small.med", "MED");
 };
 
-const Group* find_group(const MeshData& mesh, std::string_view name) {
-  const auto found = std::find_if(mesh.groups.begin(), mesh.groups.end(),
-                                  [&](const Group& group) { return group.name == name; });
-  return found == mesh.groups.end() ? nullptr : &*found;
-}
-
 }  // namespace
 
 TEST_CASE(

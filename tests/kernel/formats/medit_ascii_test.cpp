@@ -3,32 +3,21 @@
 #include <doctest/doctest.h>
 
 #include "tests/kernel/formats/fixtures.h"
+#include "tests/support/text.h"
 
 using namespace tetmend;
 using namespace tetmend::test;
 
 namespace {
 
-const std::string kHead = "MeshVersionFormatted 2\nDimension 3\n";
-const std::string kPoints = "Vertices\n4\n0 0 0 0\n1 0 0 0\n0 1 0 0\n0 0 1 0\n";
+const std::string kMeditPoints = "Vertices\n4\n0 0 0 0\n1 0 0 0\n0 1 0 0\n0 0 1 0\n";
 const std::string kTets = "Tetrahedra\n1\n1 2 3 4 7\n";
-
-std::string replaced(std::string text, std::string_view from, std::string_view to) {
-  const auto at = text.find(from);
-  REQUIRE(at != std::string::npos);
-  return text.replace(at, from.size(), to);
-}
-
-MeshData read(const std::string& content) {
-  const TempFolder folder;
-  write_text(folder / "a.mesh", content);
-  return read_mesh(folder / "a.mesh");
-}
 
 }  // namespace
 
 TEST_CASE("a MEDIT file with comments, odd white space and Windows line ends is read") {
-  const MeshData mesh = read(
+  const MeshData mesh = read_as(
+      "a.mesh",
       "\xEF\xBB\xBF# made by hand\r\n MeshVersionFormatted 1 # "
       "one\r\nDimension\r\n3\r\n\r\nVertices 4\r\n"
       "+0 0. .5 0  1D+00 0 0 0\r\n0 1e0 0 0\t0 0 1 +3 # four\r\nTetrahedra\r\n1 1 2 3 4 -7\r\nEnd");
@@ -40,8 +29,10 @@ TEST_CASE("a MEDIT file with comments, odd white space and Windows line ends is 
 }
 
 TEST_CASE("sections of a MEDIT file may come in any order and End may be missing") {
-  const MeshData mesh = read(
-      kHead + kTets + "RequiredVertices\n1\n3\nTriangles\n1\n1 2 3 5\nEdges 1 1 4 6\n" + kPoints);
+  const MeshData mesh =
+      read_as("a.mesh", kMeditHead + kTets +
+                            "RequiredVertices\n1\n3\nTriangles\n1\n1 2 3 5\nEdges 1 1 4 6\n" +
+                            kMeditPoints);
   CHECK(mesh.tets.size() == 1);
   CHECK(mesh.required_vertices == std::vector<std::uint32_t>{2});
   CHECK(mesh.triangles == std::vector<MeshData::Triangle>{{{0, 1, 2}, 5}});
@@ -49,14 +40,15 @@ TEST_CASE("sections of a MEDIT file may come in any order and End may be missing
 }
 
 TEST_CASE("known sections that are not kept are passed over in a MEDIT file") {
-  const MeshData mesh = read(
-      kHead + "BoundingBox 0 0 0 1 1 1\nAngleOfCornerBound 45.5\n" + kPoints +
-      "Corners\n2\n1\n2\nEdges 1 1 4 6\nRidges\n1\n1\nQuadrilaterals\n1\n1 2 3 4 0\nHexahedra\n0\n"
-      "Comments\n2\nsome words here\nTime flies? no: words\nSolAtVertices\n4\n1 "
-      "1\n0.5\nnan\n-inf\n1e5\n"
-      "NormalAtVertices 1 1 1\nNormals 1 0 0 1\nTetrahedraP1Ordering 1 0 1 2 3\n"
-      "ParallelVertices 1\n1 2\n" +
-      kTets + "End\nanything");
+  const MeshData mesh = read_as(
+      "a.mesh", kMeditHead + "BoundingBox 0 0 0 1 1 1\nAngleOfCornerBound 45.5\n" + kMeditPoints +
+                    "Corners\n2\n1\n2\nEdges 1 1 4 6\nRidges\n1\n1\nQuadrilaterals\n1\n1 2 3 4 "
+                    "0\nHexahedra\n0\n"
+                    "Comments\n2\nsome words here\nTime flies? no: words\nSolAtVertices\n4\n1 "
+                    "1\n0.5\nnan\n-inf\n1e5\n"
+                    "NormalAtVertices 1 1 1\nNormals 1 0 0 1\nTetrahedraP1Ordering 1 0 1 2 3\n"
+                    "ParallelVertices 1\n1 2\n" +
+                    kTets + "End\nanything");
   CHECK(mesh.tets.size() == 1);
   CHECK(mesh.groups == std::vector<Group>{{0, 0, "Corners", {}, {0, 1}},
                                           {1, 0, "Ridges", {}, {0}},
@@ -72,7 +64,7 @@ TEST_CASE("known sections that are not kept are passed over in a MEDIT file") {
 TEST_CASE("corners, ridges and what is required survive in MEDIT files of both kinds") {
   const TempFolder folder;
   write_text(folder / "a.mesh",
-             kHead + kPoints + "Edges 1 1 4 6\nTriangles\n1\n1 2 3 5\n" +
+             kMeditHead + kMeditPoints + "Edges 1 1 4 6\nTriangles\n1\n1 2 3 5\n" +
                  "Corners 2\n1\n4\nRidges 1 1\nRequiredEdges 1 1\nRequiredTriangles 1\n1\n" +
                  kTets + "End\n");
   const MeshData mesh = read_mesh(folder / "a.mesh");
@@ -84,7 +76,7 @@ TEST_CASE("corners, ridges and what is required survive in MEDIT files of both k
   CHECK(read_mesh(folder / "c.mesh").groups == mesh.groups);
   CHECK(not_written(folder / "c.mesh", mesh).empty());
   CHECK(not_written(folder / "c.vtk", mesh).size() == 1);
-  write_text(folder / "d.mesh", kHead + kPoints + kTets + "RequiredEdges 1\n1\nEnd\n");
+  write_text(folder / "d.mesh", kMeditHead + kMeditPoints + kTets + "RequiredEdges 1\n1\nEnd\n");
   CHECK(error_of_reading(folder / "d.mesh").find("the number of what is marked") !=
         std::string::npos);
 }
@@ -104,7 +96,7 @@ TEST_CASE(
     const std::string section = each.first;
     const std::string reason = each.second;
     CAPTURE(section);
-    write_text(folder / "a.mesh", kHead + kPoints + vectors + section + kTets + "End\n");
+    write_text(folder / "a.mesh", kMeditHead + kMeditPoints + vectors + section + kTets + "End\n");
     const MeshData mesh = read_mesh(folder / "a.mesh");
     CHECK(mesh.tets.size() == 1);
     CHECK(mesh.point_data.size() == 1);
@@ -116,11 +108,11 @@ TEST_CASE(
   }
   for (const std::string section :
        {"Corners 1\n9\n", "RequiredEdges 1\n1\n", "RequiredTriangles 1\n1\n"}) {
-    write_text(folder / "a.mesh", kHead + kPoints + section + kTets + "End\n");
+    write_text(folder / "a.mesh", kMeditHead + kMeditPoints + section + kTets + "End\n");
     CHECK(error_of_reading(folder / "a.mesh").find("is out of range") != std::string::npos);
   }
   // The file is cut.
-  write_text(folder / "a.mesh", kHead + kPoints + kTets + "Tangents 1\n1 0");
+  write_text(folder / "a.mesh", kMeditHead + kMeditPoints + kTets + "Tangents 1\n1 0");
   CHECK(error_of_reading(folder / "a.mesh").find("truncated") != std::string::npos);
 }
 
@@ -143,7 +135,7 @@ TEST_CASE("tets of first order beside those of second survive in MEDIT files of 
 }
 
 TEST_CASE("a bad MEDIT text file is refused with line, word and reason") {
-  const std::string good = kHead + kPoints + kTets + "End\n";
+  const std::string good = kMeditHead + kMeditPoints + kTets + "End\n";
   const std::vector<BadFile> files = {
       {"other format", "solid cube\n", ":1: ", "'solid' is not the beginning of a MEDIT file"},
       {"binary noise", std::string("\x01\0\0\0\x02", 5), ":1: ", "'\\x01\\x00\\x00\\x00\\x02'"},
@@ -157,11 +149,11 @@ TEST_CASE("a bad MEDIT text file is refused with line, word and reason") {
        ":9: ", "'tetraeder' is not expected here"},
       {"unknown section only", replaced(good, "Tetrahedra", "Tetraeder"), "",
        "the section Tetrahedra is missing"},
-      {"no vertices", kHead + kTets + "End\n", ":6: ", "the section Vertices is missing"},
-      {"no tets", kHead + kPoints + "End\n", ":9: ", "the section Tetrahedra is missing"},
-      {"twice", kHead + kPoints + kPoints + kTets,
+      {"no vertices", kMeditHead + kTets + "End\n", ":6: ", "the section Vertices is missing"},
+      {"no tets", kMeditHead + kMeditPoints + "End\n", ":9: ", "the section Tetrahedra is missing"},
+      {"twice", kMeditHead + kMeditPoints + kMeditPoints + kTets,
        ":9: ", "'Vertices' appears for the second time"},
-      {"marks twice", kHead + kPoints + "Corners 1 1\nCorners 1 2\n" + kTets,
+      {"marks twice", kMeditHead + kMeditPoints + "Corners 1 1\nCorners 1 2\n" + kTets,
        ":10: ", "'Corners' appears for the second time"},
       {"too many rows", replaced(good, "Tetrahedra\n1\n", "Tetrahedra\n1\n4 3 2 1 0\n"),
        ":12: ", "'1' is not expected here"},
@@ -170,7 +162,7 @@ TEST_CASE("a bad MEDIT text file is refused with line, word and reason") {
       {"index 0", replaced(good, "1 2 3 4 7", "1 2 0 4 7"),
        ":11: ", "'0' is out of range: expected a vertex number, 1 to 4"},
       {"index 5", replaced(good, "1 2 3 4 7", "1 2 5 4 7"), ":11: ", "'5' is out of range"},
-      {"required 9", kHead + kPoints + "RequiredVertices\n1\n9\n" + kTets,
+      {"required 9", kMeditHead + kMeditPoints + "RequiredVertices\n1\n9\n" + kTets,
        ":11: ", "'9' is out of range"},
       {"text in number", replaced(good, "1 0 0 0", "1.0x 0 0 0"), ":6: ", "'1.0x' is not a number"},
       {"text in integer", replaced(good, "1 2 3 4 7", "1 2 3 4 12abc"),
@@ -194,15 +186,15 @@ TEST_CASE("a bad MEDIT text file is refused with line, word and reason") {
        ":10: ", "'-1' is out of range"},
       {"count of words", replaced(good, "Vertices\n4", "Vertices\nfour"),
        ":4: ", "'four' is not an integer"},
-      {"hexahedra", kHead + kPoints + "Hexahedra\n1\n1 2 3 4 5 6 7 8 0\n" + kTets,
+      {"hexahedra", kMeditHead + kMeditPoints + "Hexahedra\n1\n1 2 3 4 5 6 7 8 0\n" + kTets,
        ":11: ", "'5' is out of range"},
-      {"third order", kHead + kPoints + "TetrahedraP3\n1\n1 2 3 4 0\n",
+      {"third order", kMeditHead + kMeditPoints + "TetrahedraP3\n1\n1 2 3 4 0\n",
        ":9: ", "'TetrahedraP3' cannot be read"},
-      {"cut in a number", kHead + kPoints + "Tetrahedra\n1\n1 2 3 4 7",
+      {"cut in a number", kMeditHead + kMeditPoints + "Tetrahedra\n1\n1 2 3 4 7",
        ":11: ", "the file ends right behind '7'"},
-      {"cut in rows", kHead + kPoints + "Tetrahedra\n2\n1 2 3 4 0\n1 2\n",
+      {"cut in rows", kMeditHead + kMeditPoints + "Tetrahedra\n2\n1 2 3 4 0\n1 2\n",
        ":10: ", "2 tetrahedra cannot fit into the 15 bytes"},
-      {"cut in a row", kHead + kPoints + "Tetrahedra\n1\n1 2 3 4 \n",
+      {"cut in a row", kMeditHead + kMeditPoints + "Tetrahedra\n1\n1 2 3 4 \n",
        ":12: ", "the file ends where the reference of an element is expected"},
       {"long word", replaced(good, "1 0 0 0", std::string(100000, 'x')),
        ":6: ", "'xxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxx...'"},

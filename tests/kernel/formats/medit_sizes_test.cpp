@@ -60,13 +60,11 @@ std::string binary(std::int32_t type, std::int32_t version = 2) {
   return bytes;
 }
 
-const std::string kHead = "MeshVersionFormatted 2\nDimension 3\n";
-
 }  // namespace
 
 TEST_CASE("lengths at vertices are read from solution files in text and in binary") {
   const std::vector<double> expected = {0.5, 0.25};
-  const std::string text = kHead + "# sizes\nSolAtVertices\n2\n1 1\n0.5\n2.5e-1\nEnd\n";
+  const std::string text = kMeditHead + "# sizes\nSolAtVertices\n2\n1 1\n0.5\n2.5e-1\nEnd\n";
   CHECK(formats::read_medit_sizes(write("a.sol", text)) == expected);
   CHECK(formats::read_medit_sizes(write("a.solb", binary(1))) == expected);
 }
@@ -75,14 +73,16 @@ TEST_CASE("a solution file without one length at each vertex is refused with the
   const auto contains = [](const std::string& message, const std::string& part) {
     return message.find(part) != std::string::npos;
   };
-  const std::string metric = failure("m.sol", kHead + "SolAtVertices\n1\n1 3\n1 0 1 0 0 1\nEnd\n");
+  const std::string metric =
+      failure("m.sol", kMeditHead + "SolAtVertices\n1\n1 3\n1 0 1 0 0 1\nEnd\n");
   CHECK(contains(metric, "m.sol:5"));
   CHECK(contains(metric, "metrics"));
-  CHECK(contains(failure("z.sol", kHead + "SolAtVertices\n2\n1 1\n0.5\n-1\nEnd\n"), "z.sol:7"));
-  CHECK(contains(failure("w.sol", kHead + "SolAtVertices\n2\n1 1\n0.5\nx\n"), "w.sol:7"));
-  CHECK(contains(failure("s.sol", kHead + "SolAtVertices\n2\n1 1\n0.5\n"), "s.sol"));
-  CHECK(contains(failure("l.sol", kHead + "SolAtVertices\n200000\n1 1\n0.5\n"), "l.sol:4"));
-  CHECK(contains(failure("n.sol", kHead + "End\n"), "SolAtVertices is missing"));
+  CHECK(
+      contains(failure("z.sol", kMeditHead + "SolAtVertices\n2\n1 1\n0.5\n-1\nEnd\n"), "z.sol:7"));
+  CHECK(contains(failure("w.sol", kMeditHead + "SolAtVertices\n2\n1 1\n0.5\nx\n"), "w.sol:7"));
+  CHECK(contains(failure("s.sol", kMeditHead + "SolAtVertices\n2\n1 1\n0.5\n"), "s.sol"));
+  CHECK(contains(failure("l.sol", kMeditHead + "SolAtVertices\n200000\n1 1\n0.5\n"), "l.sol:4"));
+  CHECK(contains(failure("n.sol", kMeditHead + "End\n"), "SolAtVertices is missing"));
   CHECK(contains(failure("v.sol", "Vertices 3\n"), "v.sol:1"));
   CHECK(contains(failure("d.sol", "MeshVersionFormatted 2\nDimension 2\n"), "d.sol:2"));
   CHECK(contains(failure("v.solb", binary(2)), "vectors"));

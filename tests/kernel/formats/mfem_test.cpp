@@ -6,6 +6,7 @@
 
 #include "tests/kernel/formats/damage.h"
 #include "tests/kernel/formats/fixtures.h"
+#include "tests/support/text.h"
 
 using namespace tetmend;
 using namespace tetmend::test;
@@ -28,12 +29,6 @@ std::string curved_text(std::string_view collection = "H1_3D_P2") {
          std::string(collection) +
          "\nVDim: 3\nOrdering: 1\n\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n"
          "0.5 0 0\n0 0.5 0\n0 0 0.5\n0.5 0.6 0\n0.5 0 0.5\n0 0.5 0.5\n";
-}
-
-std::string changed(std::string text, std::string_view what, std::string_view by) {
-  const auto at = text.find(what);
-  REQUIRE(at != std::string::npos);
-  return text.replace(at, what.size(), by);
 }
 
 MeshData read_mfem_text(const TempFolder& folder, std::string_view name, std::string_view content) {
@@ -124,19 +119,19 @@ TEST_CASE("a mesh of MFEM with a byte changed or cut away never crashes") {
 TEST_CASE("a bad mesh of MFEM is refused with line and reason") {
   const std::string good = mfem_text();
   const std::vector<BadFile> files = {
-      {"NURBS", changed(good, "MFEM mesh v1.3", "MFEM NURBS mesh v1.0"),
+      {"NURBS", replaced(good, "MFEM mesh v1.3", "MFEM NURBS mesh v1.0"),
        "1: ", "expected 'MFEM mesh v1.0'"},
-      {"plane", changed(good, "dimension\n3", "dimension\n2"), "6: ", "expected dimension 3"},
-      {"range", changed(good, "2 4 1 2 3 4", "2 4 1 2 3 5"), "11: ", "'5' is out of range"},
-      {"kind", changed(good, "1 4 0 1 2 3", "1 2 0 1 2"), "10: ", "expected 4 (tetrahedron)"},
-      {"name", changed(good, "\"wall\"", "wall"), "26: ", "'wall' is not a name in quotes"},
-      {"text", changed(good, "0 0 1.5", "0 0 x"), "34: ", "'x' is not a number"},
-      {"missing", changed(good, "boundary\n2", "bundary\n2"), "19: ", "'bundary' is not expected"},
+      {"plane", replaced(good, "dimension\n3", "dimension\n2"), "6: ", "expected dimension 3"},
+      {"range", replaced(good, "2 4 1 2 3 4", "2 4 1 2 3 5"), "11: ", "'5' is out of range"},
+      {"kind", replaced(good, "1 4 0 1 2 3", "1 2 0 1 2"), "10: ", "expected 4 (tetrahedron)"},
+      {"name", replaced(good, "\"wall\"", "wall"), "26: ", "'wall' is not a name in quotes"},
+      {"text", replaced(good, "0 0 1.5", "0 0 x"), "34: ", "'x' is not a number"},
+      {"missing", replaced(good, "boundary\n2", "bundary\n2"), "19: ", "'bundary' is not expected"},
       {"cut", good.substr(0, good.find("boundary")), "", "no vertices follow the elements"},
-      {"huge", changed(good, "vertices\n5", "vertices\n500000000"), "", "cannot fit"},
+      {"huge", replaced(good, "vertices\n5", "vertices\n500000000"), "", "cannot fit"},
       {"cubic", curved_text("H1_3D_P3"), "19: ", "nodes of 'H1_3D_P3' cannot be read"},
       {"discontinuous", curved_text("L2_T1_3D_P1"), "19: ", "cannot be read"},
-      {"few nodes", changed(curved_text(), "0 0.5 0.5\n", ""), "",
+      {"few nodes", replaced(curved_text(), "0 0.5 0.5\n", ""), "",
        "where a coordinate is expected"},
   };
   const TempFolder folder;

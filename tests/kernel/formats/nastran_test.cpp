@@ -13,6 +13,7 @@
 #include "kernel/formats/nastran_card.h"
 #include "tests/kernel/formats/damage.h"
 #include "tests/kernel/formats/fixtures.h"
+#include "tests/support/text.h"
 
 using namespace tetmend;
 using namespace tetmend::test;
@@ -20,7 +21,7 @@ using namespace tetmend::test;
 namespace {
 
 /// Small, large and free fields; points behind elements; loads, and a point in other coordinates.
-std::string text() {
+std::string nastran_text() {
   return "SOL 101\n"
          "CEND\n"
          "SPC = 1\n"
@@ -56,26 +57,16 @@ std::string text() {
 const std::string kLinear =
     "BEGIN BULK\nGRID,20\nGRID,30,,1.\nGRID,40,,,1.\nGRID,50,,,,1.\nCTETRA,7,1,20,30,40,50\n"
     "ENDDATA\n";
-MeshData read(const TempFolder& folder, std::string_view content) {
-  write_text(folder / "a.bdf", content);
-  return read_mesh(folder / "a.bdf");
-}
-
-std::string replaced(std::string text, std::string_view what, std::string_view with) {
-  const auto at = text.find(what);
-  REQUIRE(at != std::string::npos);
-  return text.replace(at, what.size(), with);
-}
 
 /// Without the remarks, which have lines of the file.
-std::vector<std::string> deck_of(const MeshData& mesh) {
+std::vector<std::string> nastran_deck_of(const MeshData& mesh) {
   std::vector<std::string> deck = mesh.deck;
   deck.resize(std::min<std::size_t>(deck.size(), formats::nastran_pieces));
   return deck;
 }
 
-bool same_extras(const MeshData& a, const MeshData& b) {
-  return a.other_elements == b.other_elements && deck_of(a) == deck_of(b) &&
+bool same_nastran_extras(const MeshData& a, const MeshData& b) {
+  return a.other_elements == b.other_elements && nastran_deck_of(a) == nastran_deck_of(b) &&
          a.variant == b.variant && a.point_numbers == b.point_numbers &&
          a.tet_numbers == b.tet_numbers && a.triangle_numbers == b.triangle_numbers;
 }
@@ -84,7 +75,7 @@ bool same_extras(const MeshData& a, const MeshData& b) {
 
 TEST_CASE("a deck of Nastran gives points and elements with their numbers, whatever the fields") {
   const TempFolder folder;
-  const MeshData mesh = read(folder, text());
+  const MeshData mesh = read_as(folder, "a.bdf", nastran_text());
   CHECK(mesh.point_numbers ==
         std::vector<std::int64_t>{10, 20, 30, 40, 50, 60, 70, 80, 90, 100, 110, 7000});
   CHECK(mesh.points[1] == Point(1, -0.0015, 0.25));
@@ -105,7 +96,7 @@ TEST_CASE("a deck of Nastran gives points and elements with their numbers, whate
 
 TEST_CASE("what is no mesh in a deck of Nastran stays word for word, and its points are required") {
   const TempFolder folder;
-  const MeshData mesh = read(folder, text());
+  const MeshData mesh = read_as(folder, "a.bdf", nastran_text());
   const std::vector<std::string> deck = {
       "SOL 101\nCEND\nSPC = 1\nbegin bulk\n",
       "$ a comment\nPARAM,POST,-1\nPSOLID,3,1\nMAT1,1,2.+11,,.3\nSPC1,1,123,60,THRU,85\n"
@@ -115,7 +106,7 @@ TEST_CASE("what is no mesh in a deck of Nastran stays word for word, and its poi
       "CTRIA3  15      4       10      20      40      45.\n",
       "",
       ""};
-  CHECK(deck_of(mesh) == deck);
+  CHECK(nastran_deck_of(mesh) == deck);
   CHECK(mesh.taken_point_numbers.back() == NumberRange(7000, 7000));
   CHECK(mesh.taken_element_numbers.back().second == 17);
   // 60 to 80 for SPC1, 90 for FORCE. The coordinates of 50 are no constraint.
@@ -128,14 +119,14 @@ TEST_CASE("what is no mesh in a deck of Nastran stays word for word, and its poi
 
 TEST_CASE("a deck of Nastran survives writing, and the second time with the same bytes") {
   const TempFolder folder;
-  const MeshData mesh = read(folder, text());
+  const MeshData mesh = read_as(folder, "a.bdf", nastran_text());
   CHECK(not_written(folder / "b.nas", mesh).empty());
   write_mesh(folder / "b.nas", mesh);
   const MeshData again = read_mesh(folder / "b.nas");
   CHECK(same_mesh(again, mesh));
   CHECK(again.point_numbers == mesh.point_numbers);
   CHECK(again.other_elements == mesh.other_elements);
-  CHECK(same_extras(again, mesh));
+  CHECK(same_nastran_extras(again, mesh));
   write_mesh(folder / "c.nas", again);
   CHECK(test::read_text(folder / "b.nas") == test::read_text(folder / "c.nas"));
 }
@@ -177,7 +168,7 @@ TEST_CASE("a card of Nastran keeps the points that it names, and no other number
       {"DESVAR,10,A,20.", {}},
       {"GRDSET,,,,,,,20", {}},
       {"UNHEARD,10,20", {0, 1}}};
-  std::string base = text();
+  std::string base = nastran_text();
   for (const char* line : {"SPC1,1,123,60,THRU,85\n",
                            "FORCE   2       90      0       1.0     0.0     0.0     1.0\n"}) {
     base = replaced(base, line, "");
@@ -185,8 +176,8 @@ TEST_CASE("a card of Nastran keeps the points that it names, and no other number
   const TempFolder folder;
   for (const auto& each : cards) {
     CAPTURE(each.first);
-    CHECK(read(folder, replaced(base, "ENDDATA", each.first + "\nENDDATA")).required_vertices ==
-          each.second);
+    CHECK(read_as(folder, "a.bdf", replaced(base, "ENDDATA", each.first + "\nENDDATA"))
+              .required_vertices == each.second);
   }
 }
 
@@ -194,14 +185,16 @@ TEST_CASE("the last of a thousand fields of a card of Nastran keeps its point as
   std::string card = "SPC1,1,123,10,10,10,10,10,10,+\n";
   for (int i = 0; i < 120; ++i) card += "+,10,10,10,10,10,10,10,10,+\n";
   const TempFolder folder;
-  const MeshData mesh = read(folder, replaced(text(), "SPC1,1,123,60,THRU,85\n", card + "+,20\n"));
+  const MeshData mesh = read_as(
+      folder, "a.bdf", replaced(nastran_text(), "SPC1,1,123,60,THRU,85\n", card + "+,20\n"));
   CHECK(mesh.required_vertices == std::vector<std::uint32_t>{0, 1, 8});
 }
 
 TEST_CASE("fields 7 to 9 of a GRID go where the point goes, and field 8 alone keeps it in place") {
   const TempFolder folder;
-  const std::string base = replaced(text(), "SPC1,1,123,60,THRU,85\n", "");
-  MeshData mesh = read(folder, replaced(base, "GRID,60,,1,.5,0\n", "GRID,60,,1,.5,0,3,456,2\n"));
+  const std::string base = replaced(nastran_text(), "SPC1,1,123,60,THRU,85\n", "");
+  MeshData mesh =
+      read_as(folder, "a.bdf", replaced(base, "GRID,60,,1,.5,0\n", "GRID,60,,1,.5,0,3,456,2\n"));
   CHECK(mesh.required_vertices == std::vector<std::uint32_t>{5, 8});
   CHECK(deck_remarks(mesh)[0] ==
         (folder / "a.bdf").string() +
@@ -215,7 +208,8 @@ TEST_CASE("fields 7 to 9 of a GRID go where the point goes, and field 8 alone ke
   const MeshData again = read_mesh(folder / "b.bdf");
   CHECK(again.points == mesh.points);
   CHECK(again.required_vertices == mesh.required_vertices);
-  const MeshData zero = read(folder, replaced(base, "GRID,60,,1,.5,0\n", "GRID,60,,1,.5,0,0,0\n"));
+  const MeshData zero =
+      read_as(folder, "a.bdf", replaced(base, "GRID,60,,1,.5,0\n", "GRID,60,,1,.5,0,0,0\n"));
   CHECK(zero.required_vertices == std::vector<std::uint32_t>{8});
 }
 
@@ -242,7 +236,8 @@ TEST_CASE("middle nodes of Nastran's bricks and wedges come in another order tha
 
 TEST_CASE("new points and elements get numbers above all of a deck of Nastran") {
   const TempFolder folder;
-  MeshData mesh = read(folder, replaced(text(), "PSOLID,3,1\n", "CBAR,900,1,10,20,0.,0.,1.\n"));
+  MeshData mesh = read_as(folder, "a.bdf",
+                          replaced(nastran_text(), "PSOLID,3,1\n", "CBAR,900,1,10,20,0.,0.,1.\n"));
   mesh.points.emplace_back(1, 2, 3);
   mesh.point_numbers.push_back(0);
   mesh.tets.push_back({{1, 2, 3, 12}, 3});
@@ -265,10 +260,11 @@ TEST_CASE(
                                    Greatest{"99999999", 3}, Greatest{"99999997", 99999998}}) {
     CAPTURE(greatest.number);
     const std::string deck =
-        replaced(replaced(text(), "CTRIA3  15      4       10      20      40      45.",
+        replaced(replaced(nastran_text(), "CTRIA3  15      4       10      20      40      45.",
                           "CTRIA3,15,4,10,20,40\nCTRIA3," + greatest.number + ",4,10,20,40"),
                  "PSOLID,3,1\n", "CBAR,1,1,10,20,0.,0.,1.\n");
-    MeshData mesh = read(folder, replaced(deck, "GRID,7000,", "GRID,9223372036854775807,"));
+    MeshData mesh =
+        read_as(folder, "a.bdf", replaced(deck, "GRID,7000,", "GRID,9223372036854775807,"));
     mesh.points.emplace_back(1, 2, 3);
     mesh.point_numbers.push_back(0);
     mesh.tets.push_back({{1, 2, 3, 12}, 3});
@@ -314,12 +310,12 @@ TEST_CASE("reals of Nastran may lack their letter") {
 
 TEST_CASE("bulk data of Nastran without BEGIN BULK are read; without ENDDATA with a note") {
   const TempFolder folder;
-  const MeshData mesh = read(folder, "$ made by hand\nGRID,1\nGRID,2,,1.\nENDDATA\n");
+  const MeshData mesh = read_as(folder, "a.bdf", "$ made by hand\nGRID,1\nGRID,2,,1.\nENDDATA\n");
   CHECK(mesh.points.size() == 2);
   write_mesh(folder / "b.bdf", mesh);  // as other programs want it
   CHECK(test::read_text(folder / "b.bdf").starts_with("BEGIN BULK\nGRID*"));
   for (const char* begin : {"", "SOL 101\nCEND\n BEGIN BULK\n"}) {
-    const MeshData open = read(folder, std::string(begin) + "GRID,1\nGRID,2,,1.\n");
+    const MeshData open = read_as(folder, "a.bdf", std::string(begin) + "GRID,1\nGRID,2,,1.\n");
     CHECK(open.points.size() == 2);
     CHECK(notes_but_of_orders(open) ==
           std::vector<std::string>{"the bulk data have no ENDDATA: is the file complete?"});
@@ -328,8 +324,8 @@ TEST_CASE("bulk data of Nastran without BEGIN BULK are read; without ENDDATA wit
 
 TEST_CASE("cards of Nastran that name elements are kept with a note") {
   const TempFolder folder;
-  const MeshData mesh =
-      read(folder, replaced(text(), "FORCE ", "PLOAD4,1,7,1.\nPLOAD4,1,5,1.\nFORCE "));
+  const MeshData mesh = read_as(
+      folder, "a.bdf", replaced(nastran_text(), "FORCE ", "PLOAD4,1,7,1.\nPLOAD4,1,5,1.\nFORCE "));
   CHECK(notes_but_of_orders(mesh) ==
         std::vector<std::string>{"the card PLOAD4 names elements: where improving replaces them "
                                  "it must be made anew"});
@@ -339,7 +335,7 @@ TEST_CASE("sets of elements in the bulk data of OptiStruct are told once, with t
   const TempFolder folder;
   const std::string sets =
       "SET,4,ELEM,LIST,,,,,,+\n+,7,5\nSET,6,GRID,LIST,,,,,,+\n+,20\nSET     5       ELEM    5\n";
-  const MeshData mesh = read(folder, replaced(kLinear, "ENDDATA", sets + "ENDDATA"));
+  const MeshData mesh = read_as(folder, "a.bdf", replaced(kLinear, "ENDDATA", sets + "ENDDATA"));
   CHECK(notes_but_of_orders(mesh) ==
         std::vector<std::string>{"2 sets name elements, the first is SET 4: where improving "
                                  "replaces them it must be made anew"});
@@ -349,7 +345,8 @@ TEST_CASE("sets of elements in the bulk data of OptiStruct are told once, with t
 
 TEST_CASE("a note about a card of Nastran is one line, also of a card of two") {
   const TempFolder folder;
-  const MeshData mesh = read(folder, replaced(text(), "FORCE ", "INCLUDE,a,b\n*,c\nFORCE "));
+  const MeshData mesh =
+      read_as(folder, "a.bdf", replaced(nastran_text(), "FORCE ", "INCLUDE,a,b\n*,c\nFORCE "));
   REQUIRE(notes_but_of_orders(mesh).size() == 1);
   CHECK(notes_but_of_orders(mesh)[0].find("INCLUDE,a,b\\n*,c' includes is not read") !=
         std::string::npos);
@@ -357,12 +354,12 @@ TEST_CASE("a note about a card of Nastran is one line, also of a card of two") {
 
 namespace {
 
-constexpr const char* kPoints =
+constexpr const char* kGridCards =
     "GRID,1\nGRID,2,,1.\nGRID,3,,0.,1.\nGRID,4,,0.,0.,1.\nGRID,5,,.5\nGRID,6,,.5,.5\n"
     "GRID,7,,0.,.5\nGRID,8,,0.,0.,.5\nGRID,9,,.5,0.,.5\nGRID,10,,0.,.5,.5\n";
 
 std::string bulk(std::string_view cards) {
-  return "BEGIN BULK\n" + std::string(kPoints) + std::string(cards) + "ENDDATA\n";
+  return "BEGIN BULK\n" + std::string(kGridCards) + std::string(cards) + "ENDDATA\n";
 }
 
 }  // namespace
@@ -400,13 +397,13 @@ TEST_CASE("a card of Nastran says the same in every form that people write it in
       "  CTETRA       1       2       1       2       3       4       5       6+\n"
       "+              7       8       9      10\n"};
   const TempFolder folder;
-  const MeshData plain = read(folder, bulk(forms[0]));
+  const MeshData plain = read_as(folder, "a.bdf", bulk(forms[0]));
   REQUIRE(plain.other_elements.empty());
   REQUIRE(plain.tets == std::vector<MeshData::Tet>{{{0, 1, 2, 3}, 2}});
   REQUIRE(plain.mid_nodes.size() == 6);
   for (const std::string& form : forms) {
     CAPTURE(form);
-    const MeshData mesh = read(folder, bulk(form));
+    const MeshData mesh = read_as(folder, "a.bdf", bulk(form));
     CHECK(same_mesh(mesh, plain));
     CHECK(mesh.mid_nodes == plain.mid_nodes);
     CHECK(mesh.tet_numbers == std::vector<std::int64_t>{1});
@@ -415,8 +412,8 @@ TEST_CASE("a card of Nastran says the same in every form that people write it in
 
 TEST_CASE("continuations of Nastran are found by their marks, wherever they stand") {
   const TempFolder folder;
-  const MeshData plain =
-      read(folder, bulk("CTETRA,1,2,1,2,3,4,5,6,+\n+,7,8,9,10\nFORCE,1,1,0,1.,1.,0.,0.\n"));
+  const MeshData plain = read_as(
+      folder, "a.bdf", bulk("CTETRA,1,2,1,2,3,4,5,6,+\n+,7,8,9,10\nFORCE,1,1,0,1.,1.,0.,0.\n"));
   const std::string first =
       "CTETRA         1       2       1       2       3       4       5       6+A1     \n";
   const std::string rest = "+A1            7       8       9      10\n";
@@ -427,14 +424,15 @@ TEST_CASE("continuations of Nastran are found by their marks, wherever they stan
        {first + force + rest, rest + force + first, force + rest + "$ c\n" + first,
         first + load + rest + "+1             7\n" + force}) {
     CAPTURE(cards);
-    const MeshData mesh = read(folder, bulk(cards));
+    const MeshData mesh = read_as(folder, "a.bdf", bulk(cards));
     CHECK(mesh.tets == plain.tets);
     CHECK(mesh.mid_nodes == plain.mid_nodes);
     CHECK(mesh.other_elements.empty());
     CHECK(notes_but_of_orders(mesh).empty());
   }
   // Others that go with their cards stay word for word.
-  const MeshData mesh = read(folder, bulk(load + force + first + rest + "+1             7\n"));
+  const MeshData mesh =
+      read_as(folder, "a.bdf", bulk(load + force + first + rest + "+1             7\n"));
   CHECK(mesh.deck[formats::nastran_cards] == load + "+1             7\n" + force);
 }
 
@@ -466,11 +464,11 @@ TEST_CASE("lines of Nastran whose marks go round in circles are told or stay") {
 
 TEST_CASE("a mid-side node of Nastran that is 0 is left out") {
   const TempFolder folder;
-  const MeshData none = read(folder, bulk("CTETRA,1,2,1,2,3,4,0,0,+\n+,0,0,0,0\n"));
+  const MeshData none = read_as(folder, "a.bdf", bulk("CTETRA,1,2,1,2,3,4,0,0,+\n+,0,0,0,0\n"));
   CHECK(none.tets == std::vector<MeshData::Tet>{{{0, 1, 2, 3}, 2}});
   CHECK(none.mid_nodes.empty());
   CHECK(notes_but_of_orders(none).empty());
-  const MeshData some = read(folder, bulk("CTETRA,1,2,1,2,3,4,5,0,+\n+,7,8,9,10\n"));
+  const MeshData some = read_as(folder, "a.bdf", bulk("CTETRA,1,2,1,2,3,4,5,0,+\n+,7,8,9,10\n"));
   CHECK(some.tets.empty());
   CHECK(notes_but_of_orders(some).size() == 1);
 }
@@ -478,8 +476,8 @@ TEST_CASE("a mid-side node of Nastran that is 0 is left out") {
 TEST_CASE("what follows another BEGIN of a deck of Nastran is not read, and stays") {
   const TempFolder folder;
   const std::string rest = "BEGIN SUPER=1\nGRID,1,,9.,9.,9.\nCTETRA,1,1,1,2,3,4\nENDDATA\n";
-  const MeshData mesh =
-      read(folder, "BEGIN BULK\n" + std::string(kPoints) + "CTETRA,1,2,1,2,3,4\n" + rest);
+  const MeshData mesh = read_as(
+      folder, "a.bdf", "BEGIN BULK\n" + std::string(kGridCards) + "CTETRA,1,2,1,2,3,4\n" + rest);
   CHECK(mesh.tets.size() == 1);
   CHECK(mesh.points[0] == Point(0, 0, 0));
   CHECK(notes_but_of_orders(mesh) ==
@@ -495,7 +493,7 @@ TEST_CASE("points of Nastran that repeat the card before are an error, other car
   CHECK(
       error_of_reading(folder / "a.bdf")
           .starts_with("a.bdf:3: points and elements that repeat the card before cannot be read"));
-  CHECK(read(folder, bulk("SPC,1,1,123\n=,=,2,==\nCTETRA,1,2,1,2,3,4\n"))
+  CHECK(read_as(folder, "a.bdf", bulk("SPC,1,1,123\n=,=,2,==\nCTETRA,1,2,1,2,3,4\n"))
             .deck[formats::nastran_cards] == "SPC,1,1,123\n=,=,2,==\n");
 }
 
@@ -505,7 +503,7 @@ TEST_CASE("a deck of Nastran from Windows keeps its line breaks, and gets no oth
   for (const char c : "SOL 101\nCEND\n" + bulk("CTETRA,1,2,1,2,3,4\nPSOLID,2,1\n")) {
     windows += c == '\n' ? "\r\n" : std::string(1, c);
   }
-  write_mesh(folder / "b.bdf", read(folder, windows));
+  write_mesh(folder / "b.bdf", read_as(folder, "a.bdf", windows));
   const std::string written = test::read_text(folder / "b.bdf");
   CHECK(written.find("PSOLID,2,1\r\nENDDATA\r\n") != std::string::npos);
   CHECK(std::count(written.begin(), written.end(), '\n') ==
@@ -515,8 +513,9 @@ TEST_CASE("a deck of Nastran from Windows keeps its line breaks, and gets no oth
 TEST_CASE(
     "comments behind fields of Nastran stay with cards that stay, and are told where they do not") {
   const TempFolder folder;
-  const MeshData mesh = read(
-      folder, bulk("CTETRA,1,2,1,2,3,4 $ lost\nCTETRA,2,2,1,2,3,4,5,6,+ $ lost\n+,7,8,9,10 $ too\n"
+  const MeshData mesh =
+      read_as(folder, "a.bdf",
+              bulk("CTETRA,1,2,1,2,3,4 $ lost\nCTETRA,2,2,1,2,3,4,5,6,+ $ lost\n+,7,8,9,10 $ too\n"
                    "GRID,11,,9.,0.,0.,5 $ kept\nCTRIA3,3,1,1,2,3,45. $ kept\nPSOLID,2,1 $ kept\n"));
   CHECK(notes_but_of_orders(mesh) ==
         std::vector<std::string>{
@@ -531,7 +530,7 @@ TEST_CASE(
 
 TEST_CASE("new points and elements of a deck of Nastran get no number that one had before") {
   const TempFolder folder;
-  MeshData mesh = read(folder, bulk("CTETRA,5,2,1,2,3,4\nCTETRA,9,2,1,2,3,5\n"));
+  MeshData mesh = read_as(folder, "a.bdf", bulk("CTETRA,5,2,1,2,3,4\nCTETRA,9,2,1,2,3,5\n"));
   mesh.tet_numbers[1] = 0;
   mesh.point_numbers[9] = 0;
   write_mesh(folder / "b.bdf", mesh);
@@ -543,7 +542,7 @@ TEST_CASE("new points and elements of a deck of Nastran get no number that one h
 TEST_CASE("a deck of Nastran that holds a mesh alone is no deck to miss") {
   const TempFolder folder;
   const auto lost = [&](std::string_view cards) {
-    return not_written(folder / "a.vtu", read(folder, bulk(cards)));
+    return not_written(folder / "a.vtu", read_as(folder, "a.bdf", bulk(cards)));
   };
   CHECK(lost("CTETRA,5,2,1,2,3,4\n").empty());
   CHECK(lost("CTETRA,5,2,1,2,3,4\nPSOLID,2,1\n") ==
@@ -553,18 +552,18 @@ TEST_CASE("a deck of Nastran that holds a mesh alone is no deck to miss") {
 
 TEST_CASE("a tab behind a full field of Nastran ends it, one behind blanks goes to the next") {
   const TempFolder folder;
-  const MeshData mesh = read(folder,
-                             "BEGIN BULK\nGRID\t1\t\t1.234567\t-2.34567\t3.\n"
-                             "GRID    2       \t5.\t6.\nENDDATA\n");
+  const MeshData mesh = read_as(folder, "a.bdf",
+                                "BEGIN BULK\nGRID\t1\t\t1.234567\t-2.34567\t3.\n"
+                                "GRID    2       \t5.\t6.\nENDDATA\n");
   CHECK(mesh.points == std::vector<Point>{{1.234567, -2.34567, 3}, {5, 6, 0}});
 }
 
 TEST_CASE("comments within a card of Nastran stay, whether it is written anew or as it is") {
   const TempFolder folder;
-  const MeshData mesh =
-      read(folder, bulk("CTETRA,1,2,1,2,3,4,5,6,+\n$ of a tet\n+,7,8,9,10\n"
-                        "FORCE   2       1       0       1.0     0.0\n\n$ of a load\n"
-                        "        1.0     0.0\n"));
+  const MeshData mesh = read_as(folder, "a.bdf",
+                                bulk("CTETRA,1,2,1,2,3,4,5,6,+\n$ of a tet\n+,7,8,9,10\n"
+                                     "FORCE   2       1       0       1.0     0.0\n\n$ of a load\n"
+                                     "        1.0     0.0\n"));
   CHECK(mesh.deck[formats::nastran_cards] ==
         "$ of a tet\nFORCE   2       1       0       1.0     0.0\n\n$ of a load\n"
         "        1.0     0.0\n");
@@ -575,9 +574,10 @@ TEST_CASE("an element of Nastran that leaves out mid-side nodes stays as it is, 
   const std::string partial =
       "CTETRA         1       2       1       2       3       4       5        \n"
       "               7       8       9      10\n";
-  const MeshData mesh = read(folder, bulk("CTETRA,2,2,1,2,3,4,5,6,+\n+,7,8,9,10\n"
-                                          "CTRIA6,3,2,1,2,3,5,,7\n" +
-                                          partial));
+  const MeshData mesh = read_as(folder, "a.bdf",
+                                bulk("CTETRA,2,2,1,2,3,4,5,6,+\n+,7,8,9,10\n"
+                                     "CTRIA6,3,2,1,2,3,5,,7\n" +
+                                     partial));
   CHECK(mesh.tets.size() == 1);
   REQUIRE(mesh.other_elements.size() == 1);
   CHECK(mesh.other_elements[0].vertices == std::vector<std::uint32_t>{0, 1, 2, 3});
@@ -597,14 +597,14 @@ TEST_CASE("an element of Nastran that leaves out mid-side nodes stays as it is, 
 TEST_CASE("a blank property of Nastran is no label, unless one has the number of the element") {
   const TempFolder folder;
   const std::string cards = "CTETRA,1,,1,2,3,4\nCTETRA,2,,1,2,3,5\nCTRIA3,3,,1,2,3\n";
-  const MeshData none = read(folder, bulk(cards));
+  const MeshData none = read_as(folder, "a.bdf", bulk(cards));
   CHECK(none.tets[0].label == 0);
   CHECK(none.tets[1].label == 0);
   CHECK(none.triangles[0].label == 0);
   write_mesh(folder / "b.bdf", none);
   CHECK(test::read_text(folder / "b.bdf").find("CTETRA,2,,1,2,3,5\nCTRIA3,3,,1,2,3\n") !=
         std::string::npos);
-  const MeshData with = read(folder, bulk(cards + "PSOLID,2,1\nPSHELL,3,1,.1\n"));
+  const MeshData with = read_as(folder, "a.bdf", bulk(cards + "PSOLID,2,1\nPSHELL,3,1,.1\n"));
   CHECK(with.tets[0].label == 0);
   CHECK(with.tets[1].label == 2);
   CHECK(with.triangles[0].label == 3);
@@ -630,7 +630,7 @@ TEST_CASE("points of Nastran in other coordinate systems are placed, and written
   for (const auto& each : systems) {
     CAPTURE(each.first);
     const std::string card = "GRID,20,7,2.,1.,60.\n";
-    MeshData mesh = read(folder, bulk("CTETRA,1,2,1,2,3,20\n" + card + each.first));
+    MeshData mesh = read_as(folder, "a.bdf", bulk("CTETRA,1,2,1,2,3,20\n" + card + each.first));
     CHECK((mesh.points[10] - each.second).norm() < 1e-14 * 100);
     write_mesh(folder / "b.bdf", mesh);
     CHECK(test::read_text(folder / "b.bdf").find("\n" + card) != std::string::npos);
@@ -646,8 +646,9 @@ TEST_CASE("points of Nastran in other coordinate systems are placed, and written
 TEST_CASE("angles of 90 degrees in a system of Nastran give coordinates of 0") {
   const TempFolder folder;
   const MeshData mesh =
-      read(folder, bulk("CORD2C,7,,0.,0.,0.,0.,0.,1.,\n,1.,0.,0.\nGRID,20,7,2.,90.,1.\n"
-                        "GRID,21,7,2.,-180.,1.\nGRID,22,7,2.,630.,1.\n"));
+      read_as(folder, "a.bdf",
+              bulk("CORD2C,7,,0.,0.,0.,0.,0.,1.,\n,1.,0.,0.\nGRID,20,7,2.,90.,1.\n"
+                   "GRID,21,7,2.,-180.,1.\nGRID,22,7,2.,630.,1.\n"));
   CHECK(mesh.points[10] == Point(0, 2, 1));
   CHECK(mesh.points[11] == Point(-2, 0, 1));
   CHECK(mesh.points[12] == Point(0, -2, 1));
@@ -655,8 +656,9 @@ TEST_CASE("angles of 90 degrees in a system of Nastran give coordinates of 0") {
 
 TEST_CASE("GRDSET gives a system to points without one, also to those before it, not to new ones") {
   const TempFolder folder;
-  MeshData mesh = read(folder, bulk("GRDSET,,7,,,,,,\nGRID,20,0,0.,0.,5.\nCTETRA,1,2,1,2,3,20\n"
-                                    "CORD2R,7,,10.,0.,0.,10.,0.,1.,\n,11.,0.,0.\n"));
+  MeshData mesh = read_as(folder, "a.bdf",
+                          bulk("GRDSET,,7,,,,,,\nGRID,20,0,0.,0.,5.\nCTETRA,1,2,1,2,3,20\n"
+                               "CORD2R,7,,10.,0.,0.,10.,0.,1.,\n,11.,0.,0.\n"));
   CHECK(mesh.points[0] == Point(10, 0, 0));
   CHECK(mesh.points[10] == Point(0, 0, 5));
   mesh.points.emplace_back(1, 2, 3);
@@ -672,12 +674,13 @@ TEST_CASE(
     "what a deck of Nastran includes is read; files with something of the mesh are taken in") {
   const TempFolder folder;
   std::filesystem::create_directory(folder / "sub");
-  write_text(folder / "sub" / "mesh.bdf", std::string(kPoints) + "CTETRA,1,2,1,2,3,4\nENDDATA\n");
+  write_text(folder / "sub" / "mesh.bdf",
+             std::string(kGridCards) + "CTETRA,1,2,1,2,3,4\nENDDATA\n");
   write_text(folder / "loads.bdf", "$ loads\nSPC1,1,123,10\nSPC1,1,123,2\n");
   write_text(folder / "bars.bdf", "CBAR,900,1,1,2,0.,0.,1.\n");
-  const MeshData mesh = read(folder,
-                             "SOL 101\nCEND\nBEGIN BULK\ninclude 'sub\\mesh.bdf' $ the mesh\n"
-                             "INCLUDE loads.bdf\nINCLUDE \"bars\n.bdf\"\nPSOLID,2,1\nENDDATA\n");
+  const MeshData mesh = read_as(folder, "a.bdf",
+                                "SOL 101\nCEND\nBEGIN BULK\ninclude 'sub\\mesh.bdf' $ the mesh\n"
+                                "INCLUDE loads.bdf\nINCLUDE \"bars\n.bdf\"\nPSOLID,2,1\nENDDATA\n");
   CHECK(mesh.tets == std::vector<MeshData::Tet>{{{0, 1, 2, 3}, 2}});
   CHECK(mesh.required_vertices == std::vector<std::uint32_t>{0, 1, 9});  // CBAR, SPC1
   CHECK(mesh.deck[formats::nastran_cards] ==
@@ -700,7 +703,7 @@ TEST_CASE(
     "a file that a deck of Nastran includes and that is not there is noted, one in itself "
     "refused") {
   const TempFolder folder;
-  const MeshData mesh = read(folder, bulk("INCLUDE 'gone.bdf'\n"));
+  const MeshData mesh = read_as(folder, "a.bdf", bulk("INCLUDE 'gone.bdf'\n"));
   REQUIRE(notes_but_of_orders(mesh).size() == 1);
   CHECK(notes_but_of_orders(mesh)[0].find("what 'INCLUDE 'gone.bdf'' includes is not read: ") == 0);
   CHECK(mesh.deck[formats::nastran_cards] == "INCLUDE 'gone.bdf'\n");
@@ -715,8 +718,8 @@ TEST_CASE(
 
 TEST_CASE("elements of two kinds may share a number in a deck of Nastran, and keep it") {
   const TempFolder folder;
-  const MeshData mesh =
-      read(folder, bulk("CQUAD4,1,2,1,2,3,4,45.\nCTETRA,1,3,1,2,3,4\nCTRIA3,1,3,1,2,3\n"));
+  const MeshData mesh = read_as(
+      folder, "a.bdf", bulk("CQUAD4,1,2,1,2,3,4,45.\nCTETRA,1,3,1,2,3,4\nCTRIA3,1,3,1,2,3\n"));
   CHECK(notes_but_of_orders(mesh).size() == 1);
   write_mesh(folder / "b.bdf", mesh);
   const std::string written = test::read_text(folder / "b.bdf");
@@ -756,19 +759,19 @@ TEST_CASE("coordinates of Nastran have fixed fields where they fit, and all digi
 
 TEST_CASE("a deck of Nastran with a byte changed or cut away never crashes") {
   const TempFolder folder;
-  write_text(folder / "a.bdf", text());
+  write_text(folder / "a.bdf", nastran_text());
   change_each_byte(folder / "a.bdf", folder / "a.bdf");
   cut_at_each_byte(folder / "a.bdf");
 }
 
 TEST_CASE("a tet of a deck of Nastran is located by its line") {
   const TempFolder folder;
-  write_text(folder / "a.bdf", text());
+  write_text(folder / "a.bdf", nastran_text());
   CHECK(locate_tet(folder / "a.bdf", 1).ends_with("a.bdf:15"));
 }
 
 TEST_CASE("a bad deck of Nastran is refused with line and reason") {
-  const std::string good = text();
+  const std::string good = nastran_text();
   const std::vector<BadFile> files = {
       {"other", "solid x\n", "2: ", "the file has no points: expected GRID"},
       {"no point", replaced(good, "CTETRA,5,,20", "CTETRA,5,,21"),
@@ -819,7 +822,8 @@ TEST_CASE("a bad deck of Nastran is refused with line and reason") {
 
 TEST_CASE("elements of property 0 keep it, which a blank field is not") {
   const TempFolder folder;
-  const MeshData mesh = read(folder, replaced(text(), "CTETRA,5,,20", "CTETRA,3,0,20"));
+  const MeshData mesh =
+      read_as(folder, "a.bdf", replaced(nastran_text(), "CTETRA,5,,20", "CTETRA,3,0,20"));
   write_mesh(folder / "b.bdf", mesh);
   CHECK(read_text(folder / "b.bdf").find("\nCTETRA,3,0,20,") != std::string::npos);
   CHECK(same_mesh(read_mesh(folder / "b.bdf"), mesh));
@@ -831,8 +835,9 @@ TEST_CASE("elements of property 0 keep it, which a blank field is not") {
 
 TEST_CASE("the name of an included file that is too long for any is a file that is not there") {
   const TempFolder folder;
-  const MeshData mesh =
-      read(folder, replaced(text(), "FORCE ", "INCLUDE '" + std::string(5000, 'x') + "'\nFORCE "));
+  const MeshData mesh = read_as(
+      folder, "a.bdf",
+      replaced(nastran_text(), "FORCE ", "INCLUDE '" + std::string(5000, 'x') + "'\nFORCE "));
   REQUIRE(!notes_but_of_orders(mesh).empty());
   CHECK(notes_but_of_orders(mesh)[0].find("includes is not read") != std::string::npos);
 }
@@ -910,8 +915,8 @@ TEST_CASE("rounded coordinates of Nastran have fixed fields alone, and are count
   for (std::size_t i = 0; i < 4; ++i) CHECK((again.points[i] - mesh.points[i]).norm() < 1e-14);
   CHECK(not_written(file, again, "rounded").empty());
   // The card of a point that was read has them, too.
-  const MeshData deck =
-      read(folder, replaced(kLinear, "GRID,30,,1.", "GRID,30,0,0.10000000000000001,,,,5"));
+  const MeshData deck = read_as(
+      folder, "a.bdf", replaced(kLinear, "GRID,30,,1.", "GRID,30,0,0.10000000000000001,,,,5"));
   MeshView of_deck(deck);
   of_deck.set_variant("rounded");
   write_mesh(file, of_deck);

@@ -9,6 +9,7 @@
 #include "kernel/geometry.h"
 #include "tests/kernel/formats/damage.h"
 #include "tests/kernel/formats/fixtures.h"
+#include "tests/support/text.h"
 
 using namespace tetmend;
 using namespace tetmend::test;
@@ -17,7 +18,7 @@ using namespace tetmend::formats;
 namespace {
 
 /// Two tets that share a face, one of second order, a pyramid.
-std::string text() {
+std::string netgen_text() {
   return "# by hand\n"
          "mesh3d\n"
          "dimension\n3\n"
@@ -52,17 +53,6 @@ std::string text() {
          "csgsurfaces 1\nsphere 4\n0 0 0 1\n";
 }
 
-MeshData read(const TempFolder& folder, std::string_view content) {
-  write_text(folder / "a.vol", content);
-  return read_mesh(folder / "a.vol");
-}
-
-std::string replaced(std::string text, std::string_view what, std::string_view with) {
-  const auto at = text.find(what);
-  REQUIRE(at != std::string::npos);
-  return text.replace(at, what.size(), with);
-}
-
 std::vector<Group> sorted(std::vector<Group> groups) {
   std::sort(groups.begin(), groups.end(), [](const Group& a, const Group& b) {
     return std::pair(a.dimension, a.number) < std::pair(b.dimension, b.number);
@@ -70,7 +60,7 @@ std::vector<Group> sorted(std::vector<Group> groups) {
   return groups;
 }
 
-bool same_extras(const MeshData& a, const MeshData& b) {
+bool same_netgen_extras(const MeshData& a, const MeshData& b) {
   return sorted(a.groups) == sorted(b.groups) && a.other_elements == b.other_elements &&
          a.triangle_data == b.triangle_data && a.edge_data == b.edge_data &&
          a.periodic == b.periodic && a.deck == b.deck && a.variant == b.variant;
@@ -98,7 +88,7 @@ MeshData glued() {
 
 TEST_CASE("a file of Netgen gives elements with labels, and its names as groups") {
   const TempFolder folder;
-  const MeshData mesh = read(folder, text());
+  const MeshData mesh = read_as(folder, "a.vol", netgen_text());
   CHECK(mesh.points.size() == 11);
   CHECK(mesh.tets == std::vector<MeshData::Tet>{{{0, 1, 2, 3}, 1}, {{1, 2, 3, 4}, 2}});
   CHECK(mesh.triangles == std::vector<MeshData::Triangle>{{{0, 2, 1}, 1}, {{1, 2, 3}, 2}});
@@ -130,7 +120,7 @@ TEST_CASE("a file of Netgen gives elements with labels, and its names as groups"
 TEST_CASE(
     "middle points of Netgen's elements of second order lie on the edges where VTK has them") {
   const TempFolder folder;
-  const MeshData mesh = read(folder, text());
+  const MeshData mesh = read_as(folder, "a.vol", netgen_text());
   const auto check_middles = [&](int type, const std::vector<std::array<std::size_t, 2>>& edges) {
     for (const OtherElements& others : mesh.other_elements) {
       if (others.vtk_type != type) continue;
@@ -152,7 +142,7 @@ TEST_CASE("what a file of Netgen holds survives writing, and the second time wit
   const TempFolder folder;
   for (const bool with_parameters : {false, true}) {
     CAPTURE(with_parameters);
-    std::string content = text();
+    std::string content = netgen_text();
     if (with_parameters) {
       content = replaced(content, "surfaceelementsgi", "surfaceelementsuv");
       content = replaced(content, "7 8 9\n", "7 8 9 .1 .2 .3\n");
@@ -160,12 +150,12 @@ TEST_CASE("what a file of Netgen holds survives writing, and the second time wit
       content = replaced(content, "1 2 3 4\n", "1 2 3 4 5 6 7 8\n");
       content = replaced(content, "6 5 4 3 2 1\n", "6 5 4 3 2 1 6 5 4 3 2 1\n");
     }
-    const MeshData mesh = read(folder, content);
+    const MeshData mesh = read_as(folder, "a.vol", content);
     CHECK(not_written(folder / "b.vol", mesh).empty());
     write_mesh(folder / "b.vol", mesh);
     const MeshData again = read_mesh(folder / "b.vol");
     CHECK(same_mesh(again, mesh));
-    CHECK(same_extras(again, mesh));
+    CHECK(same_netgen_extras(again, mesh));
     write_mesh(folder / "c.vol", again);
     CHECK(test::read_text(folder / "b.vol") == test::read_text(folder / "c.vol"));
   }
@@ -223,29 +213,29 @@ TEST_CASE("labels without a name are default for Netgen, and names are words") {
 
 TEST_CASE("older lists of edges are read from a file of Netgen with a note") {
   const TempFolder folder;
-  std::string content = text();
+  std::string content = netgen_text();
   const std::size_t at = content.find("edgesegmentsgi2");
   content.replace(at, content.find("points\n11") - at, "edgesegments\n2\n1 0 1 2\n2 5 2 1 9\n");
-  const MeshData mesh = read(folder, content);
+  const MeshData mesh = read_as(folder, "a.vol", content);
   CHECK(mesh.edges.size() == 1);
   CHECK(mesh.notes[0] == "of 'edgesegments' only the points and surfaces are kept");
 }
 
 TEST_CASE("a file of Netgen with a byte changed or cut away never crashes") {
   const TempFolder folder;
-  write_text(folder / "a.vol", text());
+  write_text(folder / "a.vol", netgen_text());
   change_each_byte(folder / "a.vol", folder / "a.vol");
   cut_at_each_byte(folder / "a.vol");
 }
 
 TEST_CASE("a tet of a file of Netgen is located by its line") {
   const TempFolder folder;
-  write_text(folder / "a.vol", text());
+  write_text(folder / "a.vol", netgen_text());
   CHECK(locate_tet(folder / "a.vol", 1).ends_with("a.vol:18"));
 }
 
 TEST_CASE("a bad file of Netgen is refused with line and reason") {
-  const std::string good = text();
+  const std::string good = netgen_text();
   const std::vector<BadFile> files = {
       {"other", "solid x\n", "1: ", "'solid' is not the beginning of a mesh of Netgen"},
       {"plane", replaced(good, "dimension\n3", "dimension\n2"), "4: ", "expected dimension 3"},

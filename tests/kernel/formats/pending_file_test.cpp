@@ -22,7 +22,7 @@ using formats::PendingFile;
 
 namespace {
 
-std::string refusal(const std::filesystem::path& file) {
+std::string pending_refusal(const std::filesystem::path& file) {
   try {
     const PendingFile pending(file);
   } catch (const Error& error) {
@@ -60,8 +60,8 @@ TEST_CASE("a link to nothing and a loop of links are refused, and stay") {
   const TempFolder folder;
   std::filesystem::create_symlink(folder / "none", folder / "dangling");
   std::filesystem::create_symlink(folder / "loop", folder / "loop");
-  CHECK(refusal(folder / "dangling").ends_with("cannot be written: a link to nothing"));
-  CHECK(refusal(folder / "loop").ends_with("Too many levels of symbolic links"));
+  CHECK(pending_refusal(folder / "dangling").ends_with("cannot be written: a link to nothing"));
+  CHECK(pending_refusal(folder / "loop").ends_with("Too many levels of symbolic links"));
   CHECK(folder.entries() == 2);
 }
 

@@ -6,6 +6,7 @@
 
 #include "tests/kernel/formats/damage.h"
 #include "tests/kernel/formats/fixtures.h"
+#include "tests/support/text.h"
 
 using namespace tetmend;
 using namespace tetmend::test;
@@ -13,7 +14,7 @@ using namespace tetmend::test;
 namespace {
 
 /// Two tets, a pyramid, a tet of second order; three markers, one of them without elements.
-std::string text() {
+std::string su2_text() {
   return "% made by hand\n"
          "NDIME= 3\n"
          "NELEM = 4 % of them\n"
@@ -43,18 +44,7 @@ std::string text() {
          "FFD_SURFACE_POINTS= 0\n";
 }
 
-MeshData read(const TempFolder& folder, std::string_view content) {
-  write_text(folder / "a.su2", content);
-  return read_mesh(folder / "a.su2");
-}
-
-std::string replaced(std::string text, std::string_view what, std::string_view with) {
-  const auto at = text.find(what);
-  REQUIRE(at != std::string::npos);
-  return text.replace(at, what.size(), with);
-}
-
-bool same_extras(const MeshData& a, const MeshData& b) {
+bool same_su2_extras(const MeshData& a, const MeshData& b) {
   return a.groups == b.groups && a.other_elements == b.other_elements && a.deck == b.deck &&
          a.variant == b.variant;
 }
@@ -63,7 +53,7 @@ bool same_extras(const MeshData& a, const MeshData& b) {
 
 TEST_CASE("an SU2 file gives tets, other elements and markers as named groups") {
   const TempFolder folder;
-  const MeshData mesh = read(folder, text());
+  const MeshData mesh = read_as(folder, "a.su2", su2_text());
   CHECK(mesh.points.size() == 11);
   CHECK(mesh.points[10] == Point(0, 0.5, 0.15));
   CHECK(mesh.tets == std::vector<MeshData::Tet>{{{0, 1, 2, 3}, 0}, {{1, 2, 3, 4}, 0}});
@@ -86,12 +76,12 @@ TEST_CASE("an SU2 file gives tets, other elements and markers as named groups") 
 
 TEST_CASE("what an SU2 file holds survives writing, and the second time with the same bytes") {
   const TempFolder folder;
-  const MeshData mesh = read(folder, text());
+  const MeshData mesh = read_as(folder, "a.su2", su2_text());
   CHECK(not_written(folder / "b.su2", mesh).empty());
   write_mesh(folder / "b.su2", mesh);
   const MeshData again = read_mesh(folder / "b.su2");
   CHECK(same_mesh(again, mesh));
-  CHECK(same_extras(again, mesh));
+  CHECK(same_su2_extras(again, mesh));
   write_mesh(folder / "c.su2", again);
   CHECK(test::read_text(folder / "b.su2") == test::read_text(folder / "c.su2"));
 }
@@ -146,8 +136,9 @@ TEST_CASE("names of SU2 markers are words and differ") {
 
 TEST_CASE("surface points of an FFD box of an SU2 file are dropped with a note") {
   const TempFolder folder;
-  const MeshData mesh = read(
-      folder, replaced(text(), "FFD_SURFACE_POINTS= 0\n",
+  const MeshData mesh =
+      read_as(folder, "a.su2",
+              replaced(su2_text(), "FFD_SURFACE_POINTS= 0\n",
                        "FFD_SURFACE_POINTS= 2\nthe_wing 0 0.1 0.2 0.3\nthe_wing 1 0.1 0.2 0.3\n"));
   CHECK(mesh.deck.back() == "FFD_SURFACE_POINTS= 0\n");
   CHECK(notes_but_of_orders(mesh) ==
@@ -157,7 +148,7 @@ TEST_CASE("surface points of an FFD box of an SU2 file are dropped with a note")
 
 TEST_CASE("the deck of an SU2 file is of no use to another format, and that is said") {
   const TempFolder folder;
-  const MeshData mesh = read(folder, text());
+  const MeshData mesh = read_as(folder, "a.su2", su2_text());
   CHECK(not_written(folder / "a.vtu", mesh).back() ==
         "4 pieces of a deck, all that is no mesh, are not kept: .vtu has no place for them");
   MeshData other = mesh;
@@ -168,19 +159,19 @@ TEST_CASE("the deck of an SU2 file is of no use to another format, and that is s
 
 TEST_CASE("an SU2 file with a byte changed or cut away never crashes") {
   const TempFolder folder;
-  write_text(folder / "a.su2", text());
+  write_text(folder / "a.su2", su2_text());
   change_each_byte(folder / "a.su2", folder / "a.su2");
   cut_at_each_byte(folder / "a.su2");
 }
 
 TEST_CASE("a tet of an SU2 file is located by its line") {
   const TempFolder folder;
-  write_text(folder / "a.su2", text());
+  write_text(folder / "a.su2", su2_text());
   CHECK(locate_tet(folder / "a.su2", 1).ends_with("a.su2:5"));
 }
 
 TEST_CASE("a bad SU2 file is refused with line and reason") {
-  const std::string good = text();
+  const std::string good = su2_text();
   const std::vector<BadFile> files = {
       {"other", "solid x\n", "1: ", "'solid x' is not expected here: expected a keyword and '='"},
       {"plane", replaced(good, "NDIME= 3", "NDIME= 2"), "2: ", "expected NDIME= 3"},

@@ -13,21 +13,21 @@ namespace {
 const std::string kGoodNode = "4 3 0 0\n0 0 0 0\n1 1 0 0\n2 0 1 0\n3 0 0 1\n";
 const std::string kGoodEle = "1 4 0\n0 0 1 2 3\n";
 
-struct Files {
+struct TetgenFiles {
   std::string node = kGoodNode;
   std::string ele = kGoodEle;
   std::string face = {};
   std::string edge = {};
 };
 
-void write_files(const TempFolder& folder, const Files& files) {
+void write_files(const TempFolder& folder, const TetgenFiles& files) {
   write_text(folder / "a.node", files.node);
   write_text(folder / "a.ele", files.ele);
   if (!files.face.empty()) write_text(folder / "a.face", files.face);
   if (!files.edge.empty()) write_text(folder / "a.edge", files.edge);
 }
 
-MeshData read(const Files& files) {
+MeshData read_tetgen_files(const TetgenFiles& files) {
   const TempFolder folder;
   write_files(folder, files);
   return read_mesh(folder / "a.ele");
@@ -36,12 +36,12 @@ MeshData read(const Files& files) {
 }  // namespace
 
 TEST_CASE("TetGen files that count from 1 with comments, attributes and markers are read") {
-  const MeshData mesh =
-      read({.node = "# nodes\n\n4  3  2  1  # counts\n 1  0 0 0  0.5 9 -1\n\n2 1 0 0 0 0 2\r\n"
-                    "3 0 1 0 0 0 0 # third\n4 0 0 1 0 0 3\n# end\n",
-            .ele = "1 4 2\n1 1 2 3 4 -7.0 0.25\n",
-            .face = "2 1\n1 1 2 3 5 -1 0\n2 4 2 3 6 1 2\n",
-            .edge = "1 0\n1 3 4 17 18\n"});
+  const MeshData mesh = read_tetgen_files(
+      {.node = "# nodes\n\n4  3  2  1  # counts\n 1  0 0 0  0.5 9 -1\n\n2 1 0 0 0 0 2\r\n"
+               "3 0 1 0 0 0 0 # third\n4 0 0 1 0 0 3\n# end\n",
+       .ele = "1 4 2\n1 1 2 3 4 -7.0 0.25\n",
+       .face = "2 1\n1 1 2 3 5 -1 0\n2 4 2 3 6 1 2\n",
+       .edge = "1 0\n1 3 4 17 18\n"});
   CHECK(mesh.points.size() == 4);
   CHECK(mesh.points[3] == Point(0, 0, 1));
   CHECK(mesh.point_labels == std::vector<Label>{-1, 2, 0, 3});
@@ -88,11 +88,12 @@ TEST_CASE("TetGen files count as they did, or as is asked for") {
 
 TEST_CASE("TetGen's order of the nodes of edges is that of its switch -o2") {
   // Nodes 5 to 10 are in the middle of the edges 3-4, 1-4, 1-2, 2-3, 2-4 and 1-3.
-  const MeshData mesh = read({.node = "10 3 0 0\n1 0 0 0\n2 2 0 0\n3 0 2 0\n4 0 0 2\n5 0 1 1\n"
-                                      "6 0 0 1\n7 1 0 0\n8 1 1 0\n9 1 0 1\n10 0 1 0\n",
-                              .ele = "1 10 1\n1 1 2 3 4 5 6 7 8 9 10 3\n",
-                              .face = "1 1\n1 1 3 2 10 8 7 4\n",
-                              .edge = "1 1\n1 1 2 7 -5\n"});
+  const MeshData mesh =
+      read_tetgen_files({.node = "10 3 0 0\n1 0 0 0\n2 2 0 0\n3 0 2 0\n4 0 0 2\n5 0 1 1\n"
+                                 "6 0 0 1\n7 1 0 0\n8 1 1 0\n9 1 0 1\n10 0 1 0\n",
+                         .ele = "1 10 1\n1 1 2 3 4 5 6 7 8 9 10 3\n",
+                         .face = "1 1\n1 1 3 2 10 8 7 4\n",
+                         .edge = "1 1\n1 1 2 7 -5\n"});
   CHECK(mesh.tets == std::vector<MeshData::Tet>{{{0, 1, 2, 3}, 3}});
   CHECK(mesh.triangles == std::vector<MeshData::Triangle>{{{0, 2, 1}, 4}});
   CHECK(mesh.edges == std::vector<MeshData::Edge>{{{0, 1}, -5}});
@@ -113,10 +114,11 @@ TEST_CASE("TetGen's triangles and edges of second order that no tet has come bac
   const std::string points =
       "5 0 1 1\n6 0 0 1\n7 1 0 0\n8 1 1 0\n9 1 0 1\n10 0 1 0\n11 9 0 0\n12 9 2 0\n"
       "13 9 0 2\n14 9 1 0\n15 9 1 1\n16 9 0 1\n";
-  MeshData mesh = read({.node = "16 3 0 0\n1 0 0 0\n2 2 0 0\n3 0 2 0\n4 0 0 2\n" + points,
-                        .ele = "1 10 1\n1 1 2 3 4 5 6 7 8 9 10 3\n",
-                        .face = "2 1\n1 11 12 13 14 15 16 7\n2 1 3 2 10 8 7 4\n",
-                        .edge = "1 1\n1 11 12 14 -5\n"});
+  MeshData mesh =
+      read_tetgen_files({.node = "16 3 0 0\n1 0 0 0\n2 2 0 0\n3 0 2 0\n4 0 0 2\n" + points,
+                         .ele = "1 10 1\n1 1 2 3 4 5 6 7 8 9 10 3\n",
+                         .face = "2 1\n1 11 12 13 14 15 16 7\n2 1 3 2 10 8 7 4\n",
+                         .edge = "1 1\n1 11 12 14 -5\n"});
   CHECK(mesh.triangles.size() == 2);
   CHECK(mesh.edges.size() == 1);
   CHECK(mesh.mid_nodes.size() == 9);
@@ -139,14 +141,14 @@ TEST_CASE("TetGen's triangles and edges of second order that no tet has come bac
 }
 
 TEST_CASE("TetGen counts that are left out have their usual values") {
-  const MeshData mesh =
-      read({.node = "4\n0 0 0 0\n1 1 0 0\n2 0 1 0\n3 0 0 1\n", .ele = "1\n0 0 1 2 3\n"});
+  const MeshData mesh = read_tetgen_files(
+      {.node = "4\n0 0 0 0\n1 1 0 0\n2 0 1 0\n3 0 0 1\n", .ele = "1\n0 0 1 2 3\n"});
   CHECK(mesh.tets.size() == 1);
 }
 
 TEST_CASE("a region attribute with a fraction is rounded to a label") {
-  CHECK(read({.ele = "1 4 1\n0 0 1 2 3 2.6\n"}).tets[0].label == 3);
-  CHECK(read({.ele = "1 4 1\n0 0 1 2 3 -2147483648.4\n"}).tets[0].label == INT32_MIN);
+  CHECK(read_tetgen_files({.ele = "1 4 1\n0 0 1 2 3 2.6\n"}).tets[0].label == 3);
+  CHECK(read_tetgen_files({.ele = "1 4 1\n0 0 1 2 3 -2147483648.4\n"}).tets[0].label == INT32_MIN);
 }
 
 TEST_CASE("an edge file of an older mesh is emptied when a mesh without edges is written over it") {
@@ -174,7 +176,7 @@ TEST_CASE("a missing companion of a TetGen file is an error that names it") {
 TEST_CASE("a bad TetGen file is refused with file, line, word and reason") {
   struct BadFiles {
     std::string what;
-    Files files;
+    TetgenFiles files;
     std::string place;
     std::string reason;
   };

@@ -9,6 +9,7 @@
 
 #include "tests/kernel/formats/damage.h"
 #include "tests/kernel/formats/fixtures.h"
+#include "tests/support/text.h"
 
 using namespace tetmend;
 using namespace tetmend::test;
@@ -53,12 +54,6 @@ MeshData read_unv_text(const TempFolder& folder, std::string_view content) {
   return read_mesh(folder / "a.unv");
 }
 
-std::string with(std::string text, std::string_view what, std::string_view by) {
-  const auto at = text.find(what);
-  REQUIRE(at != std::string::npos);
-  return text.replace(at, what.size(), by);
-}
-
 }  // namespace
 
 TEST_CASE("a universal file gives nodes, elements and groups with their numbers and names") {
@@ -84,7 +79,7 @@ TEST_CASE("a universal file gives nodes, elements and groups with their numbers 
 
 TEST_CASE("labels of a universal file are the properties where these tell elements apart") {
   const TempFolder folder;
-  const std::string text = with(unv_text(), "2       111         2", "2       111         9");
+  const std::string text = replaced(unv_text(), "2       111         2", "2       111         9");
   CHECK(read_unv_text(folder, text).tets[0].label == 2);
   CHECK(read_unv_text(folder, text).tets[1].label == 9);
 }
@@ -138,11 +133,12 @@ TEST_CASE("middle nodes of a universal file stand between their ends") {
 
 TEST_CASE("older datasets of a universal file are read") {
   const TempFolder folder;
-  std::string text = with(unv_text(), "  2411\n", "   781\n");
+  std::string text = replaced(unv_text(), "  2411\n", "   781\n");
   for (const std::string_view name : {"2477", "2452", "2435"}) {
     CAPTURE(name);
-    CHECK(read_unv_text(folder, with(text, "  2467\n", "  " + std::string(name) + "\n")).groups ==
-          read_unv_text(folder, unv_text()).groups);
+    CHECK(
+        read_unv_text(folder, replaced(text, "  2467\n", "  " + std::string(name) + "\n")).groups ==
+        read_unv_text(folder, unv_text()).groups);
   }
 }
 
@@ -150,7 +146,7 @@ TEST_CASE("groups of a universal file come back in the dataset that they came in
   const TempFolder folder;
   for (const char* name : {"2435", "2452", "2477", "2467"}) {
     const MeshData mesh =
-        read_unv_text(folder, with(unv_text(), "  2467\n", fmt::format("  {}\n", name)));
+        read_unv_text(folder, replaced(unv_text(), "  2467\n", fmt::format("  {}\n", name)));
     CHECK(mesh.groups.size() == read_unv_text(folder, unv_text()).groups.size());
     write_mesh(folder / "b.unv", mesh);
     CHECK(read_text(folder / "b.unv").find(fmt::format("  {}\n", name)) != std::string::npos);
@@ -178,7 +174,7 @@ TEST_CASE("a group without members is in no universal file, and a note says so")
 TEST_CASE("members of groups that are not in a universal file are named") {
   const TempFolder folder;
   const MeshData mesh =
-      read_unv_text(folder, with(unv_text(), "8         3         0", "8        77         0"));
+      read_unv_text(folder, replaced(unv_text(), "8         3         0", "8        77         0"));
   REQUIRE(mesh.notes.size() == 2);
   CHECK(mesh.notes[1] ==
         "1 of 3 members of the group 'right' are not kept: they are no nodes or elements of the "
@@ -205,17 +201,17 @@ TEST_CASE("a bad universal file is refused with line and reason") {
       {"other", "solid x\n", "1: ", "'solid' is not the beginning of a dataset: expected -1"},
       {"no nodes", "    -1\n   164\n 1\n    -1\n", "", "the file has no nodes"},
       {"cut", good.substr(0, good.rfind("    -1")), "36: ", "the dataset '2467' has no end"},
-      {"node", with(good, "        11        12        13        14", "11 12 13 15"),
+      {"node", replaced(good, "        11        12        13        14", "11 12 13 15"),
        "22: ", "'15' is not the number of a node"},
-      {"twice", with(good, "        12         1         1", "        11         1         1"),
+      {"twice", replaced(good, "        12         1         1", "        11         1         1"),
        "10: ", "the number '11' of a node appears for the second time"},
-      {"element twice", with(good, "         2       111", "         1       111"),
+      {"element twice", replaced(good, "         2       111", "         1       111"),
        "23: ", "the number '1' of an element appears for the second time"},
-      {"width", with(good, "7         4\n", "7         5\n"),
+      {"width", replaced(good, "7         4\n", "7         5\n"),
        "21: ", "an element of kind 111 has 5 nodes: expected 4"},
-      {"cubic", with(good, "111", "117"), "21: ", "expected none of third order"},
-      {"infinite", with(good, "1.5D-01", "1.5D+999"), "15: ", "is not a finite number"},
-      {"many", with(good, "0         1\nleft", "0 900000000\nleft"), "37: ", "cannot fit"},
+      {"cubic", replaced(good, "111", "117"), "21: ", "expected none of third order"},
+      {"infinite", replaced(good, "1.5D-01", "1.5D+999"), "15: ", "is not a finite number"},
+      {"many", replaced(good, "0         1\nleft", "0 900000000\nleft"), "37: ", "cannot fit"},
   };
   const TempFolder folder;
   for (const BadFile& bad : files) {

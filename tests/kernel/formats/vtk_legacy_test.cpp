@@ -12,21 +12,15 @@ using namespace tetmend::test;
 namespace {
 
 const std::string kHead = "# vtk DataFile Version 2.0\ntitle\nASCII\nDATASET UNSTRUCTURED_GRID\n";
-const std::string kPoints = "POINTS 4 double\n0 0 0 1 0 0\n0 1 0 0 0 1\n";
+const std::string kVtkPoints = "POINTS 4 double\n0 0 0 1 0 0\n0 1 0 0 0 1\n";
 const std::string kCells = "CELLS 2 9\n4 0 1 2 3\n3 0 1 2\nCELL_TYPES 2\n10\n5\n";
 const std::string kHead5 = "# vtk DataFile Version 5.1\ntitle\nASCII\nDATASET UNSTRUCTURED_GRID\n";
 const std::string kCells5 =
     "CELLS 3 7\nOFFSETS vtktypeint64\n0 4 7\nCONNECTIVITY vtktypeint64\n0 1 2 3 0 1 2\nCELL_TYPES "
     "2\n10\n5\n";
 
-MeshData read(const std::string& content) {
-  const TempFolder folder;
-  write_text(folder / "a.vtk", content);
-  return read_mesh(folder / "a.vtk");
-}
-
 std::vector<Label> labels_of(const std::string& data) {
-  const MeshData mesh = read(kHead + kPoints + kCells + data);
+  const MeshData mesh = read_as("a.vtk", kHead + kVtkPoints + kCells + data);
   REQUIRE(mesh.tets.size() == 1);
   REQUIRE(mesh.triangles.size() == 1);
   return {mesh.tets[0].label, mesh.triangles[0].label};
@@ -50,7 +44,7 @@ TEST_CASE("arrays of every kind are read from an ASCII VTK file and labels are f
       "medit:ref 1 2 vtktypeint64\n-3 4\npairs 2 2 unsigned_char\n1 2 3 4\n"
       "POINT_DATA 4\nscalars CellEntityIds int\nlookup_table default\n1 0 0 9\n";
   CHECK(labels_of(data) == std::vector<Label>{-3, 4});
-  const MeshData mesh = read(kHead + kPoints + kCells + data);
+  const MeshData mesh = read_as("a.vtk", kHead + kVtkPoints + kCells + data);
   CHECK(mesh.point_labels == std::vector<Label>{1, 0, 0, 9});
   CHECK(mesh.label_array == "medit:ref");
   std::vector<std::string> names;
@@ -100,7 +94,7 @@ TEST_CASE("the array of labels can be named") {
       "CELL_DATA 2\nSCALARS region int\nLOOKUP_TABLE default\n1 2\n"
       "SCALARS group float\nLOOKUP_TABLE default\n3 4\n"
       "SCALARS density float\nLOOKUP_TABLE default\n0.5 4\n";
-  write_text(folder / "a.vtk", kHead + kPoints + kCells + data);
+  write_text(folder / "a.vtk", kHead + kVtkPoints + kCells + data);
   const MeshData mesh = read_mesh(folder / "a.vtk", "group");
   CHECK(mesh.tets[0].label == 3);
   CHECK(mesh.label_array == "group");
@@ -122,7 +116,7 @@ TEST_CASE("the array of labels can be named") {
 TEST_CASE("a VTK file keeps arrays, their names and cells of other kinds when it is written") {
   const TempFolder folder;
   const std::string text =
-      kHead + kPoints +
+      kHead + kVtkPoints +
       "CELLS 4 18\n4 0 1 2 3\n3 0 1 2\n4 0 1 2 3\n3 1 2 3\nCELL_TYPES 4\n9\n5\n10\n5\n"
       "CELL_DATA 4\nSCALARS mat_id int\nLOOKUP_TABLE default\n5 6 7 8\n"
       "FIELD FieldData 3\nwith%20blank%01 2 4 double\n1 2 3 4 5 6 7 8\nids 1 4 vtktypeint64\n1 2 3 "
@@ -153,7 +147,7 @@ TEST_CASE("a VTK file keeps arrays, their names and cells of other kinds when it
 
 TEST_CASE("an ASCII VTK file stays one, bit for bit, and the other form can be asked for") {
   const TempFolder folder;
-  const std::string text = kHead + kPoints + kCells +
+  const std::string text = kHead + kVtkPoints + kCells +
                            "CELL_DATA 2\nSCALARS mat_id int\nLOOKUP_TABLE default\n5 6\n"
                            "FIELD FieldData 4\nids 1 2 long\n7 4000000000\nx 1 2 float\n0.1 nan\n"
                            "y 2 2 double\n0.1 1e-300 -0 3\nn 1 2 int\n-7 8\n"
@@ -189,7 +183,7 @@ TEST_CASE("an ASCII VTK file stays one, bit for bit, and the other form can be a
 
 TEST_CASE("what VTK takes an array for survives, from each of its formats to the other") {
   const TempFolder folder;
-  const std::string text = kHead + kPoints + kCells +
+  const std::string text = kHead + kVtkPoints + kCells +
                            "CELL_DATA 2\nGLOBAL_IDS cells vtkIdType\n40 50\n"
                            "POINT_DATA 4\nPEDIGREE_IDS p%20q vtkIdType\n4 5 6 7\n"
                            "NORMALS n double\n1 0 0 1 0 0 1 0 0 1 0 0\n";
@@ -219,10 +213,10 @@ TEST_CASE("what VTK takes an array for survives, from each of its formats to the
 }
 
 TEST_CASE("points, lines and polygons of a VTK file are kept by their type") {
-  const MeshData mesh =
-      read(kHead + kPoints +
-           "CELLS 5 18\n1 3\n4 0 1 2 3\n4 0 1 2 3\n2 1 3\n2 0 1\nCELL_TYPES 5\n1 9 10 3 4\n"
-           "CELL_DATA 5\nSCALARS label int\nLOOKUP_TABLE default\n1 2 3 4 5\n");
+  const MeshData mesh = read_as(
+      "a.vtk", kHead + kVtkPoints +
+                   "CELLS 5 18\n1 3\n4 0 1 2 3\n4 0 1 2 3\n2 1 3\n2 0 1\nCELL_TYPES 5\n1 9 10 3 4\n"
+                   "CELL_DATA 5\nSCALARS label int\nLOOKUP_TABLE default\n1 2 3 4 5\n");
   CHECK(mesh.tets == std::vector<MeshData::Tet>{{{0, 1, 2, 3}, 3}});
   CHECK(mesh.edges == std::vector<MeshData::Edge>{{{1, 3}, 4}});
   CHECK(mesh.triangles.empty());
@@ -230,7 +224,8 @@ TEST_CASE("points, lines and polygons of a VTK file are kept by their type") {
 }
 
 TEST_CASE("a VTK file of version 5.1 is read in ASCII") {
-  const MeshData mesh = read(kHead5 + kPoints + "METADATA\nINFORMATION 0\n\n" + kCells5);
+  const MeshData mesh =
+      read_as("a.vtk", kHead5 + kVtkPoints + "METADATA\nINFORMATION 0\n\n" + kCells5);
   CHECK(mesh.tets == std::vector<MeshData::Tet>{{{0, 1, 2, 3}, 0}});
   CHECK(mesh.triangles == std::vector<MeshData::Triangle>{{{0, 1, 2}, 0}});
 }
@@ -263,7 +258,7 @@ TEST_CASE("a VTK file of version 5.1 is read in binary") {
   file.add_all<std::int64_t>({0, -1, INT32_MAX, INT32_MIN})
       .text("\nLOOKUP_TABLE t 2\n")
       .text("12341234\n");
-  const MeshData mesh = read(file.str());
+  const MeshData mesh = read_as("a.vtk", file.str());
   CHECK(mesh.points[3] == Point(0.25, 0, 1));
   CHECK(mesh.tets == std::vector<MeshData::Tet>{{{0, 1, 2, 3}, 1}});
   CHECK(mesh.triangles == std::vector<MeshData::Triangle>{{{0, 1, 2}, 255}});
@@ -288,8 +283,8 @@ TEST_CASE("a bad VTK file is refused with line or byte, word and reason") {
     REQUIRE(at != std::string::npos);
     return text.replace(at, from.size(), to);
   };
-  const std::string good = kHead + kPoints + kCells;
-  const std::string good5 = kHead5 + kPoints + kCells5;
+  const std::string good = kHead + kVtkPoints + kCells;
+  const std::string good5 = kHead5 + kVtkPoints + kCells5;
   const std::vector<BadFile> files = {
       {"text", "hello\n", ":1: ", "'hello' is not the beginning of a legacy VTK file"},
       {"XML", "<?xml version=\"1.0\"?>\n<VTKFile>\n",
@@ -300,8 +295,8 @@ TEST_CASE("a bad VTK file is refused with line or byte, word and reason") {
       {"polydata", replaced(good, "UNSTRUCTURED_GRID", "POLYDATA"),
        ":4: ", "the data set 'POLYDATA' cannot be read"},
       {"no points", kHead + "CELLS 0 0\nCELL_TYPES 0\n", ":7: ", "the section POINTS is missing"},
-      {"no cells", kHead + kPoints, ":8: ", "the section CELLS is missing"},
-      {"no types", kHead + kPoints + "CELLS 1 5\n4 0 1 2 3\n",
+      {"no cells", kHead + kVtkPoints, ":8: ", "the section CELLS is missing"},
+      {"no types", kHead + kVtkPoints + "CELLS 1 5\n4 0 1 2 3\n",
        ":10: ", "the section CELL_TYPES is missing"},
       {"unknown word", good + "CELLDATA 2\n", ":14: ", "'CELLDATA' is not expected here"},
       {"array before data", good + "SCALARS a int\n", ":14: ", "'SCALARS' is not expected here"},
@@ -347,10 +342,10 @@ TEST_CASE("a bad VTK file is refused with line or byte, word and reason") {
       {"third order", replaced(good, "10\n5", "71\n5"),
        ":12: ", "(tetrahedron of higher order) cannot be read"},
       {"unknown type", replaced(good, "10\n5", "10\n-5"), ":13: ", "type '-5' (no type of VTK)"},
-      {"twice", good + kPoints, ":14: ", "'POINTS' appears for the second time"},
+      {"twice", good + kVtkPoints, ":14: ", "'POINTS' appears for the second time"},
       {"data of others", good + "CELL_DATA 3\n",
        ":14: ", "data of 3 cells do not belong to this mesh: expected 2"},
-      {"data before cells", kHead + kPoints + cell_data, ":8: ", "expected the cells before"},
+      {"data before cells", kHead + kVtkPoints + cell_data, ":8: ", "expected the cells before"},
       {"label", good + cell_data + "SCALARS label long\nLOOKUP_TABLE d\n1 2147483648\n",
        ":17: ", "the label 2147483648 is out of range"},
       {"label word", good + cell_data + "SCALARS label int\nLOOKUP_TABLE d\n1 x\n",
@@ -359,7 +354,7 @@ TEST_CASE("a bad VTK file is refused with line or byte, word and reason") {
        ":16: ", "cannot fit"},
       {"cut", good + cell_data + "SCALARS label int\nLOOKUP_TABLE d\n1 2",
        ":17: ", "the file ends right behind '2'"},
-      {"5.1 without offsets", kHead5 + kPoints + "CELLS 2 9\n4 0 1 2 3\n",
+      {"5.1 without offsets", kHead5 + kVtkPoints + "CELLS 2 9\n4 0 1 2 3\n",
        ":9: ", "'4' is not expected here: expected OFFSETS"},
       {"5.1 of reals", replaced(good5, "OFFSETS vtktypeint64", "OFFSETS double"),
        ":9: ", "cannot be of type double"},

@@ -16,6 +16,7 @@
 #include "kernel/formats/packed_file.h"
 #include "kernel/formats/vtu_blocks.h"
 #include "tests/kernel/formats/fixtures.h"
+#include "tests/support/text.h"
 
 using namespace tetmend;
 using namespace tetmend::test;
@@ -40,25 +41,16 @@ std::string piece(const std::string& data) {
          array("types", "UInt8", "10 5") + "</Cells>\n</Piece>\n";
 }
 
-MeshData read(const std::string& content) {
-  const TempFolder folder;
-  write_text(folder / "a.vtu", content);
-  return read_mesh(folder / "a.vtu");
-}
-
-std::string replaced(std::string text, const std::string& from, const std::string& to) {
-  return text.replace(text.find(from), from.size(), to);
-}
-
 }  // namespace
 
 TEST_CASE("a VTK XML file gives points, elements, labels and arrays") {
-  const MeshData mesh = read(kOpening + "<FieldData><DataArray/></FieldData>\n" +
-                             piece("<PointData>\n" + array("T", "Float64", "1 nan 3 -4e2") +
-                                   array("who", "String", "65") + "</PointData>\n<CellData>\n" +
-                                   array("Material", "Int32", "7 -8") +
-                                   array("x&amp;y", "UInt16", "1 2 3 65535", 2) + "</CellData>\n") +
-                             kEnd);
+  const MeshData mesh =
+      read_as("a.vtu", kOpening + "<FieldData><DataArray/></FieldData>\n" +
+                           piece("<PointData>\n" + array("T", "Float64", "1 nan 3 -4e2") +
+                                 array("who", "String", "65") + "</PointData>\n<CellData>\n" +
+                                 array("Material", "Int32", "7 -8") +
+                                 array("x&amp;y", "UInt16", "1 2 3 65535", 2) + "</CellData>\n") +
+                           kEnd);
   CHECK(mesh.points[3] == Point(0.25, 0, 1));
   CHECK(mesh.tets == std::vector<MeshData::Tet>{{{0, 1, 2, 3}, 7}});
   CHECK(mesh.triangles == std::vector<MeshData::Triangle>{{{0, 1, 2}, -8}});
@@ -75,7 +67,7 @@ TEST_CASE("the pieces of a VTK XML file become one mesh") {
   const std::string both = "<CellData>\n" + array("label", "Int32", "1 2") + "</CellData>\n";
   const std::string more = "<CellData>\n" + array("label", "Int32", "3 4") +
                            array("q", "Float32", "0 0") + "</CellData>\n";
-  const MeshData mesh = read(kOpening + piece(both) + piece(more) + kEnd);
+  const MeshData mesh = read_as("a.vtu", kOpening + piece(both) + piece(more) + kEnd);
   CHECK(mesh.points.size() == 8);
   CHECK(mesh.tets == std::vector<MeshData::Tet>{{{0, 1, 2, 3}, 1}, {{4, 5, 6, 7}, 3}});
   CHECK(mesh.tet_data.empty());
@@ -174,7 +166,7 @@ TEST_CASE("an array with integers of 64 bits and no sign is noted if they are to
 
 TEST_CASE("a bad VTK XML file is refused with line and reason") {
   const std::string good = kOpening + piece("") + kEnd;
-  CHECK(read(good).tets.size() == 1);
+  CHECK(read_as("a.vtu", good).tets.size() == 1);
   const std::string packed =
       replaced(good, "version=\"0.1\"", "version=\"0.1\" compressor=\"vtkZLibDataCompressor\"");
   const auto inline_points = [](const std::string& text, const std::string& data) {

@@ -6,6 +6,7 @@
 
 #include "kernel/formats/hdf5_file.h"
 #include "tests/kernel/formats/fixtures.h"
+#include "tests/support/text.h"
 
 using namespace tetmend;
 using namespace tetmend::test;
@@ -62,10 +63,6 @@ std::string small_xdmf() {
  </Domain>
 </Xdmf>
 )xdmf";
-}
-
-std::string replaced(std::string text, std::string_view what, std::string_view by) {
-  return text.replace(text.find(what), what.size(), by);
 }
 
 }  // namespace

@@ -10,14 +10,13 @@
 
 #include "kernel/integrity.h"
 #include "schedule/schedule.h"
+#include "tests/support/tets.h"
 #include "tests/support/zoo.h"
 
 using namespace tetmend;
 using namespace tetmend::test;
 
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180;
 
 /// The smallest range of angles, in radians, that holds those of the tets on some walls.
 AngleRange angles_on(const TetMesh& mesh, const std::vector<HalfFace>& walls) {

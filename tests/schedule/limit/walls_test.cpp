@@ -9,14 +9,13 @@
 #include <doctest/doctest.h>
 
 #include "kernel/shell.h"
+#include "tests/support/tets.h"
 #include "tests/support/zoo.h"
 
 using namespace tetmend;
 using namespace tetmend::test;
 
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180;
 
 std::vector<HalfFace> all_walls(const TetMesh& mesh) {
   std::vector<HalfFace> walls;

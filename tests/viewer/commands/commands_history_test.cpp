@@ -15,8 +15,8 @@ using namespace tetmend::viewer;
 
 namespace {
 
-struct TraceSession {
-  explicit TraceSession(const std::filesystem::path& file) {
+struct HistorySession {
+  explicit HistorySession(const std::filesystem::path& file) {
     document.resize({400, 300});
     document.open(file);
   }
@@ -29,7 +29,7 @@ struct TraceSession {
 
 TEST_CASE("a script asks a trace about tets, edges and vertices") {
   const test::TracedBall trace;
-  TraceSession s(trace.path());
+  HistorySession s(trace.path());
   run_script(s.session, R"lua(
     seek(100)
     local worst = history{tet = "worst"}
@@ -64,7 +64,7 @@ TEST_CASE("a script asks a trace about tets, edges and vertices") {
 
 TEST_CASE("the selection is asked for, and numbers of a file count from 0") {
   const test::TracedBall trace;
-  TraceSession s(trace.path());
+  HistorySession s(trace.path());
   find_command("to_end").run(s.session, {});
   const auto file = trace.folder / "end.mesh";
   s.document.save(file);
@@ -85,7 +85,7 @@ TEST_CASE("the selection is asked for, and numbers of a file count from 0") {
 
 TEST_CASE("the visits that a history counts lead to its tet") {
   const test::TracedBall trace;
-  TraceSession s(trace.path());
+  HistorySession s(trace.path());
   const auto told = find_command("history").run(s.session, {"tet:worst"});
   REQUIRE(told["visited"].size() > 0);
   CHECK(told["visited"].size() == told["visits"]);
@@ -104,7 +104,7 @@ TEST_CASE("the visits that a history counts lead to its tet") {
 
 TEST_CASE("questions that make no sense are errors that say what is valid, and nothing moves") {
   const test::TracedBall trace;
-  TraceSession s(trace.path());
+  HistorySession s(trace.path());
   find_command("seek").run(s.session, {50});
   const auto fails = [&](const nlohmann::json& arguments, const char* text) {
     CAPTURE(arguments.dump());

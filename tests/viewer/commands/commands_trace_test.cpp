@@ -15,16 +15,7 @@
 using namespace tetmend;
 using namespace tetmend::viewer;
 using test::TestSession;
-
-namespace {
-
-struct TraceSession : TestSession {
-  explicit TraceSession(const std::filesystem::path& trace) : TestSession(test::one_tet()) {
-    document.open(trace);
-  }
-};
-
-}  // namespace
+using test::TraceSession;
 
 TEST_CASE("a trace is opened like a mesh, and a mesh after it closes it") {
   const test::TracedBall trace;

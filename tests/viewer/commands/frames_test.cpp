@@ -10,17 +10,7 @@
 
 using namespace tetmend;
 using namespace tetmend::viewer;
-using test::TestSession;
-
-namespace {
-
-struct TraceSession : TestSession {
-  explicit TraceSession(const std::filesystem::path& trace) : TestSession(test::one_tet()) {
-    document.open(trace);
-  }
-};
-
-}  // namespace
+using test::TraceSession;
 
 TEST_CASE("frames have all events that were asked for, and no others") {
   const FrameRange range = frame_range({10, 50, 20}, 100);

@@ -37,7 +37,7 @@ LiveRun::Input measured(TetMesh mesh) {
   return {std::move(mesh), statistics};
 }
 
-LiveRun::Input asset(const std::string& name) {
+LiveRun::Input live_input(const std::string& name) {
   return measured(
       TetMesh(read_mesh(std::filesystem::path(TETMEND_SOURCE_DIR) / "assets/meshes" / name)));
 }
@@ -76,7 +76,7 @@ TEST_CASE("a live run gives the mesh of improve(), bit for bit, as often as it i
   TetMesh plain(MeshAccess::take(improved));
   plain.set_standard(Standard(Goal{}));
 
-  const LiveRun::Input mesh = asset("sheet.mesh");
+  const LiveRun::Input mesh = live_input("sheet.mesh");
   LiveRun run;
   for (int i = 0; i < 2; ++i) {
     CAPTURE(i);
@@ -182,7 +182,7 @@ TEST_CASE("a live run keeps the walls between parts that share a label") {
 TEST_CASE("a run from what is shown starts with the result of the one before") {
   const test::TempFolder folder;
   test::write_text(folder / "sweep.lua", "local_reconnection{sweeps = 1}");
-  const LiveRun::Input mesh = asset("sheet.mesh");
+  const LiveRun::Input mesh = live_input("sheet.mesh");
   LiveRun run;
   run.choose_schedule((folder / "sweep.lua").string());
   run.start(mesh, LiveRun::From::file, "sheet.mesh");
@@ -280,7 +280,7 @@ TEST_CASE("a run ends with its owner, whatever it does") {
 TEST_CASE("a mistake in a schedule is told with its line, and the mesh so far stays") {
   const test::TempFolder folder;
   const std::filesystem::path file = folder / "bad.lua";
-  const LiveRun::Input mesh = asset("sheet.mesh");
+  const LiveRun::Input mesh = live_input("sheet.mesh");
   LiveRun run;
   test::write_text(file, "parameter{'n', default = 1}\nsmooth{}\nsmooth{cycels = 1}\n");
   run.choose_schedule(file.string());
@@ -312,7 +312,7 @@ TEST_CASE("parameters are checked when they are set, and kept for schedules that
   const auto rounds = [&] { return run.value_of(run.info().parameters.front()); };
   REQUIRE(run.info().parameters.front().name == "max_rounds");
   CHECK(rounds() == "0");
-  const LiveRun::Input mesh = asset("sheet.mesh");
+  const LiveRun::Input mesh = live_input("sheet.mesh");
   run.start(mesh, LiveRun::From::file, "sheet.mesh");
   run.set("max_rounds", "5");  // for the next run
   CHECK(run.wait(kForever) == LiveState::finished);
@@ -596,7 +596,7 @@ TEST_CASE("a run that fails says so in the status line") {
 }
 
 TEST_CASE("a run that begins paused has made no call, and steps from the first one on") {
-  const LiveRun::Input mesh = asset("sheet.mesh");
+  const LiveRun::Input mesh = live_input("sheet.mesh");
   LiveRun plain;
   plain.start(mesh, LiveRun::From::file, "sheet.mesh");
   CHECK(plain.wait(kForever) == LiveState::finished);
@@ -628,7 +628,7 @@ TEST_CASE("a run that begins paused has made no call, and steps from the first o
 }
 
 TEST_CASE("breakpoints hold a live run at the end of the call for which they hold") {
-  const LiveRun::Input mesh = asset("sheet.mesh");
+  const LiveRun::Input mesh = live_input("sheet.mesh");
   LiveRun run;
   run.breakpoints = {{parse_condition("accepted and worse than 0.9")},
                      {parse_condition("operator smoothing"), false}};
@@ -650,7 +650,7 @@ TEST_CASE("breakpoints hold a live run at the end of the call for which they hol
 
 TEST_CASE("a breakpoint on an edge is met where the trace of the run has it") {
   const test::TempFolder folder;
-  const LiveRun::Input mesh = asset("sheet.mesh");
+  const LiveRun::Input mesh = live_input("sheet.mesh");
   LiveRun run;
   run.trace = folder / "live.trace";
   run.start(mesh, LiveRun::From::file, "sheet.mesh");
@@ -688,7 +688,7 @@ TEST_CASE("a breakpoint on an edge is met where the trace of the run has it") {
 
 TEST_CASE("a breakpoint holds inside of a recursion, as often as the trace has such calls") {
   const test::TempFolder folder;
-  const LiveRun::Input mesh = asset("folded_sheet.mesh");
+  const LiveRun::Input mesh = live_input("folded_sheet.mesh");
   LiveRun run;
   run.trace = folder / "live.trace";
   run.breakpoints = {{parse_condition("deeper 1")}};
@@ -719,7 +719,7 @@ TEST_CASE("a breakpoint holds inside of a recursion, as often as the trace has s
 }
 
 TEST_CASE("breakpoints that are taken away inside of a call hold no more, and new ones do") {
-  const LiveRun::Input mesh = asset("sheet.mesh");
+  const LiveRun::Input mesh = live_input("sheet.mesh");
   LiveRun run;
   run.breakpoints = {{parse_condition("deeper 0")}};
   run.start(mesh, LiveRun::From::file, "sheet.mesh");
@@ -743,7 +743,7 @@ TEST_CASE("breakpoints that are taken away inside of a call hold no more, and ne
 }
 
 TEST_CASE("a run that is held inside of a call can be stopped, and its mesh is sound") {
-  const LiveRun::Input mesh = asset("sheet.mesh");
+  const LiveRun::Input mesh = live_input("sheet.mesh");
   LiveRun run;
   run.breakpoints = {{parse_condition("deeper 1")}};
   run.start(mesh, LiveRun::From::file, "sheet.mesh");
@@ -754,7 +754,7 @@ TEST_CASE("a run that is held inside of a call can be stopped, and its mesh is s
 }
 
 TEST_CASE("a run of some changes a second shows each, and gives the same mesh") {
-  const LiveRun::Input mesh = asset("sheet.mesh");
+  const LiveRun::Input mesh = live_input("sheet.mesh");
   LiveRun run;
   run.set_speed(200);
   run.paused = true;
@@ -782,7 +782,7 @@ TEST_CASE("an operator alone is a schedule with its parameters") {
     CHECK(std::any_of(parameters.begin(), parameters.end(),
                       [&](const ScheduleParameter& p) { return p.name == spec.name; }));
   }
-  run.start(asset("sheet.mesh"), LiveRun::From::file, "sheet.mesh");
+  run.start(live_input("sheet.mesh"), LiveRun::From::file, "sheet.mesh");
   CHECK(run.wait(kForever) == LiveState::finished);
   CHECK(run.progress().error.empty());
   CHECK(run.progress().accepted > 0);

@@ -9,7 +9,7 @@ using namespace tetmend::viewer;
 
 namespace {
 
-double area(const Polygon& polygon, const glm::dvec3& normal) {
+double polygon_area(const Polygon& polygon, const glm::dvec3& normal) {
   glm::dvec3 sum(0);
   for (unsigned i = 1; i + 1 < polygon.size; ++i) {
     sum += glm::cross(polygon.corners[i] - polygon.corners[0],
@@ -34,7 +34,7 @@ constexpr std::array<glm::dvec3, 4> kTet = {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0
 TEST_CASE("a square cut in half keeps half its area and marks the new side") {
   const Polygon half = clip(square(), {{1, 0, 0}, 1}, false);
   REQUIRE(half.size == 4);
-  CHECK(area(half, {0, 0, 1}) == doctest::Approx(2));
+  CHECK(polygon_area(half, {0, 0, 1}) == doctest::Approx(2));
   CHECK(std::count(half.drawn.begin(), half.drawn.begin() + half.size, false) == 1);
 }
 
@@ -46,10 +46,10 @@ TEST_CASE("a plane beside a polygon takes all or nothing") {
 TEST_CASE("a plane between one corner and three cuts a tet in a triangle") {
   const Polygon section = cross_section(kTet, {{0, 0, 1}, 0.5});
   REQUIRE(section.size == 3);
-  CHECK(area(section, {0, 0, 1}) == doctest::Approx(0.125));
+  CHECK(polygon_area(section, {0, 0, 1}) == doctest::Approx(0.125));
   const Polygon other = cross_section(kTet, {{0, 0, -1}, -0.5});
   REQUIRE(other.size == 3);
-  CHECK(area(other, {0, 0, -1}) == doctest::Approx(0.125));
+  CHECK(polygon_area(other, {0, 0, -1}) == doctest::Approx(0.125));
 }
 
 TEST_CASE("a plane between two corners and two cuts a tet in a quadrilateral") {
@@ -57,7 +57,7 @@ TEST_CASE("a plane between two corners and two cuts a tet in a quadrilateral") {
   const Polygon section = cross_section(kTet, {normal, 0.25 * glm::length(glm::dvec3(1, 1, 0))});
   REQUIRE(section.size == 4);
   // x + y = 1/2: sides from (1/2, 0) to (0, 1/2), height 1/2.
-  CHECK(area(section, normal) == doctest::Approx(0.5 * std::sqrt(0.5)));
+  CHECK(polygon_area(section, normal) == doctest::Approx(0.5 * std::sqrt(0.5)));
 }
 
 TEST_CASE("a plane beside a tet has no cross-section") {

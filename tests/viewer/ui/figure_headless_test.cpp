@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "tests/apps/program.h"
+#include "tests/support/assets.h"
 #include "tests/support/example_traces.h"
 #include "tests/viewer/png.h"
 
@@ -17,13 +18,11 @@ using namespace tetmend::test;
 
 namespace {
 
-const std::string kSheet = TETMEND_SOURCE_DIR "/assets/meshes/sheet.mesh";
-
 viewer::Image render(const TempFolder& folder, std::vector<std::string> more) {
   ::unsetenv("DISPLAY");
   const std::string file = (folder / "out.png").string();
   more.insert(more.begin(), {"--render", file});
-  more.push_back(kSheet);
+  more.push_back(asset("sheet.mesh"));
   const Outcome outcome = run_program(more);
   CHECK(outcome.err == "");
   REQUIRE(outcome.status == 0);
@@ -142,13 +141,13 @@ TEST_CASE("what is wrong with frames is one line, and leaves no file") {
     CHECK(std::count(outcome.err.begin(), outcome.err.end(), '\n') == 1);
     CHECK(folder.entries() == 0);
   };
-  fails({"--video", video, kSheet}, "--video is for traces");
+  fails({"--video", video, asset("sheet.mesh")}, "--video is for traces");
   fails({"--video", video, "--frames", "0,99999999", trace.path().string()}, "the trace has");
   for (const char* wrong : {"5", "1,2,3,4", "a,b", "1,", "-1,5", "1,2,", "1;2"}) {
     fails({"--video", video, std::string("--frames=") + wrong, trace.path().string()},
           "FROM,TO or FROM,TO,EVERY");
   }
   fails({"--video", (folder / "run.avi").string(), trace.path().string()}, "written as .mp4");
-  fails({"--render", (folder / "x.png").string(), "--background", "blue", kSheet},
+  fails({"--render", (folder / "x.png").string(), "--background", "blue", asset("sheet.mesh")},
         "one of gradient, white, transparent");
 }

@@ -10,6 +10,7 @@
 
 #include "kernel/formats/mesh_io.h"
 #include "tests/apps/program.h"
+#include "tests/support/assets.h"
 #include "tests/support/zoo.h"
 #include "tests/viewer/png.h"
 
@@ -17,8 +18,6 @@ using namespace tetmend;
 using namespace tetmend::test;
 
 namespace {
-
-const std::string kSheet = TETMEND_SOURCE_DIR "/assets/meshes/sheet.mesh";
 
 Outcome run_script(const TempFolder& folder, const std::string& text) {
   ::unsetenv("DISPLAY");
@@ -36,8 +35,8 @@ TEST_CASE("a picture of an asset has the size asked for, and the mesh in its mid
   ::unsetenv("DISPLAY");
   const TempFolder folder;
   const std::string file = (folder / "out.png").string();
-  const Outcome outcome =
-      run_program({"--render", file, "--size", "320x240", "--view", R"({"bad": false})", kSheet});
+  const Outcome outcome = run_program(
+      {"--render", file, "--size", "320x240", "--view", R"({"bad": false})", asset("sheet.mesh")});
   CHECK(outcome.err == "");
   REQUIRE(outcome.status == 0);
   const viewer::Image image = read_png(file);
@@ -74,7 +73,7 @@ TEST_CASE("a bad tet inside is seen through the surface") {
   const TempFolder folder;
   const Outcome outcome = run_script(folder, R"lua(
     size(300, 240)
-    open()lua" + in_quotes(kSheet) + R"lua()
+    open()lua" + in_quotes(asset("sheet.mesh")) + R"lua()
     bad()
     expect(red_pixels() == 0, "no red on the surface")
     bad()
@@ -164,7 +163,8 @@ TEST_CASE("a live run takes the red away") {
 TEST_CASE("an operator of a plugin can be tried live, with its parameters") {
   const TempFolder folder;
   std::ofstream(folder / "script.lua") << R"lua(
-    open()lua" << in_quotes(kSheet) << R"lua()
+    open()lua" << in_quotes(asset("sheet.mesh"))
+                                       << R"lua()
     expect(live_plugins()[1] == "odt_smoothing", "its name")
     expect(live_schedule("operator odt_smoothing").halvings == "3", "its parameter")
     live_set("rounds_at_most", 2)
@@ -188,7 +188,7 @@ TEST_CASE("panels can be part of the picture, in both themes") {
   const TempFolder folder;
   const Outcome outcome = run_script(folder, R"lua(
     size(1000, 600)
-    open()lua" + in_quotes(kSheet) + R"lua()
+    open()lua" + in_quotes(asset("sheet.mesh")) + R"lua()
     local light = pixel(100, 590)
     panels()
     expect(pixel(3, 300).red > 200, "a light panel")
@@ -265,7 +265,7 @@ TEST_CASE("a view from the command line sets the camera, and one without a camer
     const std::string report = (folder / "report.json").string();
     const Outcome outcome =
         run_program({"--render", (folder / "out.png").string(), "--size", "900x200", "--panels",
-                     "--view", view, "--report", report, kSheet});
+                     "--view", view, "--report", report, asset("sheet.mesh")});
     CHECK(outcome.err == "");
     const auto camera = nlohmann::json::parse(read_text(report))["view"]["camera"];
     return camera["yaw"].get<double>();
@@ -288,9 +288,9 @@ TEST_CASE("what is wrong is said in one line, with an exit status") {
   fails({"--render", out, "missing.mesh"}, 1, "missing.mesh: cannot be read: No such file");
   fails({"--render", out, "missing.trace"}, 1, "missing.trace: cannot be read: No such file");
   fails({"--render", out, "missing"}, 1, "missing: cannot be read: No such file");
-  fails({"--render", out, "--view", R"({"peal": 1})", kSheet}, 1, "no setting 'peal'");
-  fails({"--render", (folder / "out.gif").string(), kSheet}, 1, ".png");
-  fails({"--render", out, "--size", "12", kSheet}, 1, "WIDTHxHEIGHT");
+  fails({"--render", out, "--view", R"({"peal": 1})", asset("sheet.mesh")}, 1, "no setting 'peal'");
+  fails({"--render", (folder / "out.gif").string(), asset("sheet.mesh")}, 1, ".png");
+  fails({"--render", out, "--size", "12", asset("sheet.mesh")}, 1, "WIDTHxHEIGHT");
   fails({"--script", "missing.lua"}, 1, "missing.lua");
   fails({"--nonsense"}, 2, "--nonsense");
   CHECK_FALSE(std::filesystem::exists(out));
@@ -299,7 +299,8 @@ TEST_CASE("what is wrong is said in one line, with an exit status") {
 TEST_CASE("without a driver of EGL there is one line and status 1") {
   const TempFolder folder;
   ::setenv("__EGL_VENDOR_LIBRARY_FILENAMES", (folder / "none.json").c_str(), 1);
-  const Outcome outcome = run_program({"--render", (folder / "out.png").string(), kSheet});
+  const Outcome outcome =
+      run_program({"--render", (folder / "out.png").string(), asset("sheet.mesh")});
   ::unsetenv("__EGL_VENDOR_LIBRARY_FILENAMES");
   CAPTURE(outcome.err);
   CHECK(outcome.status == 1);
@@ -311,7 +312,7 @@ TEST_CASE("in a small window the columns give way to the picture") {
   const TempFolder folder;
   const Outcome outcome = run_script(folder, R"lua(
     panels()
-    open()lua" + in_quotes(kSheet) + R"lua()
+    open()lua" + in_quotes(asset("sheet.mesh")) + R"lua()
     local function middle(width, height)
       size(width, height)
       select_tet(17)

@@ -19,8 +19,8 @@ using namespace tetmend::test;
 
 namespace {
 
-Outcome run_script(const TempFolder& folder, const std::filesystem::path& trace,
-                   const std::string& text) {
+test::Outcome run_trace_script(const TempFolder& folder, const std::filesystem::path& trace,
+                               const std::string& text) {
   ::unsetenv("DISPLAY");
   std::ofstream(folder / "script.lua") << text;
   return run_program({"--script", (folder / "script.lua").string(), trace.string()});
@@ -50,8 +50,8 @@ TEST_CASE("the picture is red where the bad tet is, and not after the step that 
   const TempFolder folder;
   const std::uint32_t call = find_cure(trace.path());
   REQUIRE(call != kNoCall);
-  const Outcome outcome = run_script(folder, trace.path(),
-                                     fmt::format(R"lua(
+  const test::Outcome outcome = run_trace_script(folder, trace.path(),
+                                                 fmt::format(R"lua(
     size(300, 240)
     enter({})
     expect(view().isolate, "isolated")
@@ -67,7 +67,7 @@ TEST_CASE("the picture is red where the bad tet is, and not after the step that 
     deselect()
     expect(red_pixels() > 100, "red again on the way back")
   )lua",
-                                                 call));
+                                                             call));
   CHECK(outcome.err == "");
   CHECK(outcome.status == 0);
 }
@@ -79,7 +79,7 @@ TEST_CASE("--at shows the mesh after so many events, and the report tells the pl
   const std::string report = (folder / "report.json").string();
   const std::string picture = (folder / "out.png").string();
   const auto red_at = [&](std::uint64_t event) {
-    const Outcome outcome =
+    const test::Outcome outcome =
         run_program({"--render", picture, "--size", "320x240", "--at", std::to_string(event),
                      "--report", report, trace.path().string()});
     CHECK(outcome.err == "");
@@ -90,7 +90,7 @@ TEST_CASE("--at shows the mesh after so many events, and the report tells the pl
   };
   const std::uint64_t end = TraceFile(trace.path()).event_count();
   CHECK(red_at(0) > 4 * red_at(end));
-  const Outcome beyond =
+  const test::Outcome beyond =
       run_program({"--render", picture, "--at", std::to_string(end + 1), trace.path().string()});
   CHECK(beyond.status == 1);
   CHECK(beyond.err.find("events") != std::string::npos);
@@ -99,9 +99,9 @@ TEST_CASE("--at shows the mesh after so many events, and the report tells the pl
 TEST_CASE("panels of a trace are drawn in both themes: tree, polygon, timeline") {
   const TracedBall trace;
   const TempFolder folder;
-  const Outcome outcome =
-      run_script(folder, trace.path(),
-                 fmt::format(R"lua(
+  const test::Outcome outcome =
+      run_trace_script(folder, trace.path(),
+                       fmt::format(R"lua(
     size(1300, 850)
     panels()
     enter({})
@@ -113,7 +113,7 @@ TEST_CASE("panels of a trace are drawn in both themes: tree, polygon, timeline")
     step_out()
     screenshot("{}")
   )lua",
-                             find_cure(trace.path()), (folder / "a.png").string()));
+                                   find_cure(trace.path()), (folder / "a.png").string()));
   CHECK(outcome.err == "");
   CHECK(outcome.status == 0);
   CHECK(read_png(folder / "a.png").width == 1300);
@@ -122,9 +122,9 @@ TEST_CASE("panels of a trace are drawn in both themes: tree, polygon, timeline")
 TEST_CASE("what is pointed at lights up in the picture and in the ring") {
   const TempFolder folder;
   const auto picture = [&](const char* name) { return (folder / name).string(); };
-  const Outcome outcome =
-      run_script(folder, TETMEND_SOURCE_DIR "/assets/lessons/2-two-shells.trace",
-                 fmt::format(R"lua(
+  const test::Outcome outcome =
+      run_trace_script(folder, TETMEND_SOURCE_DIR "/assets/lessons/2-two-shells.trace",
+                       fmt::format(R"lua(
     size(1500, 940)
     panels()
     seek(9)
@@ -139,8 +139,8 @@ TEST_CASE("what is pointed at lights up in the picture and in the ring") {
     point_at("call 2")
     screenshot("{}")
   )lua",
-                             picture("a.png"), picture("b.png"), picture("c.png"), picture("d.png"),
-                             picture("e.png")));
+                                   picture("a.png"), picture("b.png"), picture("c.png"),
+                                   picture("d.png"), picture("e.png")));
   CHECK(outcome.err == "");
   REQUIRE(outcome.status == 0);
   const auto lit = [](const viewer::Image& image, int left, int right) {
@@ -191,9 +191,9 @@ TEST_CASE("the whole ring is in sight in small windows, without scrolling") {
   const TempFolder folder;
   const std::array<const char*, 3> names = {"large.png", "small.png", "least.png"};
   const auto picture = [&](std::size_t i) { return (folder / names[i]).string(); };
-  const Outcome outcome =
-      run_script(folder, TETMEND_SOURCE_DIR "/assets/lessons/2-two-shells.trace",
-                 fmt::format(R"lua(
+  const test::Outcome outcome =
+      run_trace_script(folder, TETMEND_SOURCE_DIR "/assets/lessons/2-two-shells.trace",
+                       fmt::format(R"lua(
     panels()
     if state().teaching then teaching() end
     seek(9)
@@ -204,7 +204,7 @@ TEST_CASE("the whole ring is in sight in small windows, without scrolling") {
     size(1300, 720)
     screenshot("{}")
   )lua",
-                             picture(0), picture(1), picture(2)));
+                                   picture(0), picture(1), picture(2)));
   CHECK(outcome.err == "");
   REQUIRE(outcome.status == 0);
   const auto whole = extent_of_ring(read_png(picture(0)));
@@ -257,8 +257,8 @@ TEST_CASE("the line of the algorithm is marked, moves with the call, and is alwa
   }
   script +=
       fmt::format("teaching() size(1280, 720) seek(6) screenshot(\"{}\")\n", picture("teach"));
-  const Outcome outcome =
-      run_script(folder, TETMEND_SOURCE_DIR "/assets/lessons/2-two-shells.trace", script);
+  const test::Outcome outcome =
+      run_trace_script(folder, TETMEND_SOURCE_DIR "/assets/lessons/2-two-shells.trace", script);
   CHECK(outcome.err == "");
   REQUIRE(outcome.status == 0);
   CHECK(outcome.out == "6\n8\n5\n6\n8\n5\n");
