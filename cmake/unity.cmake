@@ -1,7 +1,5 @@
 # tetmend_unity(TARGET): eight sources are compiled as one, where TETMEND_UNITY is on, for most of the time of a compiler goes
-# into headers. Sources that define the same private name are compiled alone: unity_alone.txt lists them.
-file(STRINGS ${CMAKE_CURRENT_LIST_DIR}/unity_alone.txt tetmend_unity_alone REGEX "^[^#]")
-set_property(DIRECTORY ${PROJECT_SOURCE_DIR} APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${CMAKE_CURRENT_LIST_DIR}/unity_alone.txt)
+# into headers. So their private names differ (tests/script/unity_names.py).
 function(tetmend_unity target)
   if(NOT TETMEND_UNITY)
     return()
@@ -11,14 +9,6 @@ function(tetmend_unity target)
   # takes for a large source.
   target_compile_options(${target} PRIVATE
     $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage> $<$<CXX_COMPILER_ID:GNU>:--param=large-unit-insns=80000>)
-  get_target_property(sources ${target} SOURCES)
-  foreach(source IN LISTS sources)
-    get_filename_component(source ${source} ABSOLUTE)
-    file(RELATIVE_PATH name ${PROJECT_SOURCE_DIR} ${source})
-    if(name IN_LIST tetmend_unity_alone)
-      set_source_files_properties(${source} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
-    endif()
-  endforeach()
 endfunction()
 
 # tetmend_cold(TARGETS...): code that turns figures into words and pages, or reads what was typed. It runs once, so it is

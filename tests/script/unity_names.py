@@ -1,9 +1,8 @@
 # SPDX-License-Identifier: MIT
-"""Finds the sources that cannot be compiled as one with others of their folder, for both have a name of their own that is
-the same: cmake/unity_alone.txt lists them, cmake/unity.cmake reads it.
+"""Finds sources that cannot be compiled as one with others of their target (cmake/unity.cmake), for both have a name of
+their own that is the same.
 
-    unity_names.py ROOT           fails where a source is missing in the list
-    unity_names.py ROOT --write   writes the list; lines below "# By hand" stay
+    unity_names.py ROOT           fails where there are any, and says the names
 """
 
 import collections
@@ -16,7 +15,6 @@ FOLDERS = "platform kernel trace search envelope ops contract schedule face piec
           "tests/viewer tests/unit".split()
 UNIT = ("tests/platform/", "tests/kernel/", "tests/trace/", "tests/search/", "tests/ops/", "tests/schedule/", "tests/contract/")
 PYTHON_CHARTS = ("report/", "explain/json_text.cpp", "explain/page_text.cpp", "figure/markup.cpp", "kernel/printable.cpp")
-BY_HAND = "# By hand: names that only a compiler sees."
 # Programs of one source, and code of another system: never compiled as one with the others of their folder.
 APART = ("apps/tetmend_mpi.cpp", "apps/tetmend_view.cpp", "platform/platform_windows.cpp")
 DECLARED = re.compile(
@@ -54,50 +52,30 @@ def group_of(path):
     return max((folder for folder in FOLDERS if path.startswith(folder + "/")), key=len, default=None)
 
 
-def alone(root, known=()):
-    """For each group, as few sources as are found quickly, besides the known, such that no two of the others share a name."""
-    groups = collections.defaultdict(dict)
+def shared_names(root):
+    """(group, name, sources) of each private name that several sources of a group have."""
+    groups = collections.defaultdict(lambda: collections.defaultdict(set))
     for path in sorted(root.glob("**/*.cpp")):
-        name = path.relative_to(root).as_posix()
-        group = None if name.startswith("build/") or name in APART else group_of(name)
+        source = path.relative_to(root).as_posix()
+        group = None if source.startswith("build/") or source in APART else group_of(source)
         if group:
-            names = own_names(path.read_text(encoding="utf-8"))
-            groups[group][name] = names
-            if name.startswith(PYTHON_CHARTS):
-                groups["bindings/python"][name] = names
-    result = set(known)
-    for sources in groups.values():
-        while True:
-            holders = collections.defaultdict(list)
-            for source in sources:
-                for name in sources[source] if source not in result else ():
-                    holders[name].append(source)
-            clashes = collections.Counter(s for held in holders.values() if len(held) > 1 for s in held for _ in held[1:])
-            if not clashes:
-                break
-            result.add(max(sorted(clashes), key=clashes.get))
-    return result
+            also = ["bindings/python"] if source.startswith(PYTHON_CHARTS) else []
+            for name in own_names(path.read_text(encoding="utf-8")):
+                for of in [group, *also]:
+                    groups[of][name].add(source)
+    return [(group, name, sorted(sources)) for group, names in sorted(groups.items())
+            for name, sources in sorted(names.items()) if len(sources) > 1]
 
 
 def main():
-    root = pathlib.Path(sys.argv[1])
-    file = root / "cmake/unity_alone.txt"
-    lines = file.read_text(encoding="utf-8").splitlines() if file.exists() else []
-    by_hand = lines[lines.index(BY_HAND) + 1:] if BY_HAND in lines else []
-    if not sys.argv[2:]:
-        missing = sorted(alone(root, lines) - set(lines))
-        for name in missing:
-            print(f"{name} shares a name of its own with a source that it may be compiled with: give it another, or run "
-                  "tests/script/unity_names.py . --write")
-        return 1 if missing else 0
-    if sys.argv[2:] == ["--write"]:
-        found = sorted(alone(root, by_hand) - set(by_hand))
-        head = "# Sources that are compiled alone: written by tests/script/unity_names.py, read by unity.cmake."
-        file.write_text("\n".join([head, *found, BY_HAND, *by_hand]) + "\n", encoding="utf-8")
-        print(len(found), "sources, and by hand", len(by_hand))
-        return 0
-    print(__doc__, file=sys.stderr)
-    return 2
+    if len(sys.argv) != 2:
+        print(__doc__, file=sys.stderr)
+        return 2
+    shared = shared_names(pathlib.Path(sys.argv[1]))
+    for _, name, sources in shared:
+        print(f"{name} is a private name of {' and '.join(sources)}, which are compiled as one: give it another in one of them, "
+              "or one place for all")
+    return 1 if shared else 0
 
 
 if __name__ == "__main__":
