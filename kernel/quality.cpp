@@ -66,7 +66,7 @@ double needle_volume_length2(double ratio) {
 /// Users take edges of a tet for similar up to this ratio.
 constexpr double kNeedleRatio = 4;
 /// Quality of a needle without volume.
-constexpr double kFlatNeedle = 0.4;
+constexpr double kFlat = 0.4;
 
 }  // namespace
 
@@ -77,7 +77,7 @@ Standard::Standard(const Goal& goal, Terms terms, double price)
       acute2_(1 / (sine_of(goal.min_angle) * sine_of(goal.min_angle))),
       obtuse2_(1 / (sine_of(goal.max_angle) * sine_of(goal.max_angle))) {
   if (terms == Terms::sine) return;
-  flat2_ = kFlatNeedle * kFlatNeedle;
+  flat2_ = kFlat * kFlat;
   // VL^2 = 432 V6^2 / S^3.
   length_ = (1 - flat2_) * 432 / needle_volume_length2(kNeedleRatio);
 }

@@ -63,7 +63,7 @@ py::dict to_dict(const BadTet& bad) {
       "free_vertices"_a = bad.free_vertices, "reason"_a = std::string(to_string(bad.hindrance)));
 }
 
-const char* to_text(Ending ending) {
+const char* ending_name(Ending ending) {
   switch (ending) {
     case Ending::finished:
       return "finished";
@@ -179,7 +179,7 @@ py::dict to_dict(const Result& result) {
       "after"_a = to_dict(result.after, result.rulers_after, result.curved_after),
       "sizes_before"_a = to_object(result.sizes_before),
       "sizes_after"_a = to_object(result.sizes_after),
-      "size_drift"_a = to_object(result.size_drift), "ending"_a = to_text(result.ending),
+      "size_drift"_a = to_object(result.size_drift), "ending"_a = ending_name(result.ending),
       "passes"_a = to_list(result.passes), "notes"_a = to_texts(result.notes),
       "data"_a = to_list(result.carried), "build"_a = to_dict(result.build),
       "protected"_a =

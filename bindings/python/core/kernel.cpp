@@ -48,13 +48,13 @@ Numbers numbers_of(const Handles& handles) {
 Point to_point(const std::array<double, 3>& p) {
   return {p[0], p[1], p[2]};
 }
-std::array<double, 3> to_array(const Point& p) {
+std::array<double, 3> coordinates_of(const Point& p) {
   return {p.x(), p.y(), p.z()};
 }
 
 /// Rows of numbers, an array of its own.
 template <std::size_t N>
-py::array to_array(const std::vector<std::array<std::int32_t, N>>& rows) {
+py::array array_of(const std::vector<std::array<std::int32_t, N>>& rows) {
   py::array_t<std::int32_t> made({rows.size(), N});
   std::copy_n(rows.empty() ? nullptr : rows[0].data(), N * rows.size(), made.mutable_data());
   return made;
@@ -161,7 +161,7 @@ py::array edges_of(const KernelMesh& self) {
     const auto [a, b] = self.mesh.vertices(e);
     rows.push_back({static_cast<std::int32_t>(a.index()), static_cast<std::int32_t>(b.index())});
   }
-  return to_array(rows);
+  return array_of(rows);
 }
 
 template <class Faces>
@@ -173,7 +173,7 @@ py::array faces_of(const KernelMesh& self, const Faces& faces) {
                     static_cast<std::int32_t>(v[1].index()),
                     static_cast<std::int32_t>(v[2].index())});
   }
-  return to_array(rows);
+  return array_of(rows);
 }
 
 /// The tet behind the face opposite each corner, -1 for none.
@@ -185,7 +185,7 @@ py::array neighbours_of(const KernelMesh& self) {
       rows[t.index()][f.face()] = static_cast<std::int32_t>(self.mesh.twin(f).tet().index());
     }
   }
-  return to_array(rows);
+  return array_of(rows);
 }
 
 /// A value for each slot of a tet, `none` where there is no tet.
@@ -205,7 +205,7 @@ py::array view_of_points(const py::object& given) {
   if (points.empty() && count > 0) {  // in other lengths than those of the memory
     py::array_t<double> made({count, py::ssize_t{3}});
     for (py::ssize_t v = 0; v < count; ++v) {
-      const auto p = to_array(self.mesh.point(VertexHandle(static_cast<std::uint32_t>(v))));
+      const auto p = coordinates_of(self.mesh.point(VertexHandle(static_cast<std::uint32_t>(v))));
       std::copy(p.begin(), p.end(), made.mutable_data(v, 0));
     }
     return made;
@@ -331,12 +331,12 @@ class PythonProposal {
   bool is_made_ = false;
 };
 
-py::array to_array(std::span<const std::array<Point, 4>> tets) {
+py::array array_of(std::span<const std::array<Point, 4>> tets) {
   py::array_t<double> made({tets.size(), std::size_t{4}, std::size_t{3}});
   double* next = made.mutable_data();
   for (const auto& tet : tets) {
     for (const Point& p : tet) {
-      for (const double c : to_array(p)) *next++ = c;
+      for (const double c : coordinates_of(p)) *next++ = c;
     }
   }
   return made;
@@ -365,7 +365,7 @@ void add_operator(KernelMesh& self, const std::string& name, const std::string& 
   kernel::Judge by = kernel::Judge::strict();
   if (!judge.is_none()) {
     by = kernel::Judge::by([judge](kernel::Judge::Tets before, kernel::Judge::Tets now) {
-      return py::bool_(judge(to_array(before), to_array(now))).cast<bool>();
+      return py::bool_(judge(array_of(before), array_of(now))).cast<bool>();
     });
   }
   const auto add = [&](auto handle) {
@@ -497,8 +497,8 @@ void add_edit(py::module_& module) {
              });
            })
       .def("result", [](const Self& self) { return result_text(self.result); })
-      .def("before", [](Self& self) { return to_array(self.mesh.scope(self.depth).before()); })
-      .def("after", [](Self& self) { return to_array(self.mesh.scope(self.depth).after()); })
+      .def("before", [](Self& self) { return array_of(self.mesh.scope(self.depth).before()); })
+      .def("after", [](Self& self) { return array_of(self.mesh.scope(self.depth).after()); })
       .def("created", [](Self& self) { return numbers_of(self.mesh.scope(self.depth).created()); })
       .def("changed", [](Self& self) { return numbers_of(self.mesh.scope(self.depth).changed()); });
 }
@@ -518,7 +518,7 @@ void add_walks(py::class_<KernelMesh>& made) {
            })
       .def("point",
            [](const Self& self, std::uint32_t v) {
-             const auto p = to_array(self.mesh.point(self.vertex(v)));
+             const auto p = coordinates_of(self.mesh.point(self.vertex(v)));
              return py::array_t<double>(3, p.data());
            })
       .def("find_tet",
