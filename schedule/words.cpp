@@ -203,8 +203,7 @@ constexpr std::array<WordInfo, 28> kWords = {{
     {"quality", "quality()",
      "the mesh now: q_worst (1: the goal is just met), n_bad (tets that miss it), n_needles "
      "(others of a quality below 1), q_aver (mean quality of both), q_few (of the 32 worst that "
-     "are "
-     "not protected; 1: none is bad); goal_min, goal_max, theta_min, theta_max, lambda, mean_ratio "
+     "may change); goal_min, goal_max, theta_min, theta_max, lambda, mean_ratio "
      "and radius_ratio (the means of all tets), tets, vertices; seconds (since the start), passes "
      "(so far), date (of the sweep that comes next, for selections). q_few, theta_min, theta_max, "
      "lambda, mean_ratio and radius_ratio are measured when they are read, which must be before "
