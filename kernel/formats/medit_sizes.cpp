@@ -16,6 +16,7 @@
 
 #include "kernel/error.h"
 #include "kernel/formats/byte_reader.h"
+#include "kernel/formats/medit_binary.h"
 #include "kernel/formats/text_reader.h"
 
 namespace tetmend::formats {
