@@ -11,7 +11,6 @@
 #include <fmt/ranges.h>
 
 #include "kernel/bounds.h"
-#include "kernel/chunks.h"
 #include "kernel/error.h"
 #include "kernel/nearest_word.h"
 #include "kernel/printable.h"
