@@ -9,6 +9,7 @@
 
 #include "kernel/mesh_data.h"
 #include "kernel/tet_mesh.h"
+#include "tests/support/zoo.h"
 
 namespace tetmend::test {
 
