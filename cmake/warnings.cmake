@@ -9,7 +9,9 @@ if(TETMEND_SANITIZE)
     -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer -UNDEBUG)
   target_link_options(tetmend_flags INTERFACE -fsanitize=address,undefined)
   if(TETMEND_BUILD_FUZZ)
-    target_compile_options(tetmend_flags INTERFACE -fsanitize=fuzzer-no-link)
+    # Checks of pointers take a third of the compiler's time, and the address sanitizer sees most of what they see.
+    target_compile_options(tetmend_flags INTERFACE -fsanitize=fuzzer-no-link
+      -fno-sanitize=null,alignment,vptr,object-size)
   endif()
 elseif(TETMEND_SANITIZE_THREADS)
   target_compile_options(tetmend_flags INTERFACE -fsanitize=thread -fno-omit-frame-pointer)
