@@ -57,7 +57,7 @@ void check_all(const std::vector<Candidate>& candidates, bool must_succeed, Try&
 TEST_CASE("each operator keeps its contract in sweeps over every mesh of the zoo") {
   const Registry registry = Registry::builtin();
   check_all(operators_with_defaults(registry), true, [](const Operator& op, const TetMesh& mesh) {
-    return try_in_sweeps(op, mesh, 3, 1500);
+    return try_in_sweeps(op, mesh, 2, 800);
   });
 }
 
@@ -78,7 +78,7 @@ TEST_CASE("each operator keeps its contract with each parameter at the ends of i
   const Registry registry = Registry::builtin();
   check_all(
       operators_at_their_limits(registry), false,
-      [](const Operator& op, const TetMesh& mesh) { return try_in_sweeps(op, mesh, 1, 120); });
+      [](const Operator& op, const TetMesh& mesh) { return try_in_sweeps(op, mesh, 1, 60); });
 }
 
 TEST_CASE("operators keep the contract when they work one after the other on the same mesh") {

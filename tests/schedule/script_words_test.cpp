@@ -22,17 +22,17 @@ TEST_CASE("every word of the reference exists and takes every argument that it n
     CHECK(contains(run_script("nonsense()").error, std::string(word.name)));
     const bool is_pass = !word.fields.empty();
     if (!is_pass) continue;
-    const std::string call =
-        std::string(word.name) + (word.name == "apply" ? "('smoothing', {" : "({");
+    std::string call = std::string(word.name) + (word.name == "apply" ? "('smoothing', {" : "({");
     for (const WordField& field : word.fields) {
-      CHECK(run_script(call + std::string(field.name) + " = " + std::string(field.initial) + "})")
-                .error == "");
+      call += std::string(field.name) + " = " + std::string(field.initial) + ", ";
     }
     for (const ParameterSpec& spec : word.numbers) {
       const bool flag = spec.kind == ParameterSpec::Kind::flag;
       const std::string value = flag ? "true" : std::to_string(static_cast<int>(spec.initial));
-      CHECK(run_script(call + std::string(spec.name) + " = " + value + "})").error == "");
+      call += std::string(spec.name) + " = " + value + ", ";
     }
+    CAPTURE(call);
+    CHECK(run_script(call + "})").error == "");
   }
   // Nothing is missing in it.
   const std::string error = run_script("nonsense()").error;
