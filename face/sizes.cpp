@@ -361,6 +361,11 @@ Sizes::Sizes(const Options& options)
     throw OptionError("size_at",
                       "size_at: the lengths come from a function or from size, not both");
   }
+  if ((function_ || is_alone(Spec::Kind::function)) && gradation_ != Options().gradation) {
+    throw OptionError("gradation",
+                      "gradation: the lengths of a function are taken as they are; a function that "
+                      "changes less does what gradation would");
+  }
   if (options.keep_size) {
     throw OptionError("keep_size", "keep_size: the lengths are those of size, or those there were");
   }

@@ -136,8 +136,8 @@ class FebioWriter {
       };
       const auto tets = std::count_if(members.begin(), members.end(), is_tet);
       if (tets == 0 || labels_written_.contains(label)) continue;
-      throw Error(
-          fmt::format("{} tets have the label {}, and the deck has no block for it", tets, label));
+      throw Error(fmt::format("{} the label {}, and the deck has no block for it",
+                              tets == 1 ? "a tet has" : fmt::format("{} tets have", tets), label));
     }
   }
 

@@ -98,6 +98,8 @@ TEST_CASE(
   CHECK(option_of({.keep_size = true, .size = {"0.1"}}) == "keep_size");
   CHECK(option_of({.size = {"0.1"}, .size_at = [](double, double, double) { return 1.0; }}) ==
         "size_at");
+  CHECK(option_of({.size_at = [](double, double, double) { return 1.0; }, .gradation = 1.2}) ==
+        "gradation");
   Mesh mesh = cube();
   const std::size_t points = MeshAccess::data(mesh).points.size();
   CHECK_THROWS_AS(adapt(mesh, {.size = {"array:wrong"}}), Error);
