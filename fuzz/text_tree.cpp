@@ -22,7 +22,6 @@
 #include "kernel/error.h"
 #include "kernel/formats/hdf5_file.h"
 #include "kernel/formats/input_file.h"
-#include "kernel/printable.h"
 
 namespace tetmend::formats {
 namespace {
@@ -62,7 +61,7 @@ struct TextTable {
 
 class TextTreeReader final : public Hdf5Reader {
  public:
-  explicit TextTreeReader(const InputFile& input) : Hdf5Reader(input.size()), name_(input.name()) {
+  explicit TextTreeReader(const InputFile& input) : Hdf5Reader(input) {
     std::istringstream lines(std::string(input.begin(), input.size()));
     groups_.insert("/");
     for (std::string line; std::getline(lines, line);) read(line);
@@ -130,11 +129,6 @@ class TextTreeReader final : public Hdf5Reader {
     const auto found = attributes_.find({path, attribute});
     if (found == attributes_.end() || found->second.first != "t") return {};
     return found->second.second.substr(0, found->second.second.find('\0'));
-  }
-
-  [[noreturn]] void fail(const std::string& path, std::string_view reason) const override {
-    throw Error(fmt::format("{}: '{}': {}", name_, printable(path == "/" ? path : "/" + path, 200),
-                            reason));
   }
 
  private:
@@ -208,7 +202,6 @@ class TextTreeReader final : public Hdf5Reader {
     return found;
   }
 
-  std::string name_;
   std::set<std::string> groups_;  // and tables
   std::map<std::string, TextTable> tables_;
   std::map<std::pair<std::string, std::string>, std::pair<std::string, std::string>> attributes_;

@@ -90,8 +90,8 @@ std::vector<char> near_marked(const Piece& piece, std::uint8_t marks, unsigned r
 
 /// The vertices of `wanted` (a mark for each) and these elements of a piece, with numbers of their own.
 struct Extract {
-  std::vector<char> wanted;
-  std::vector<std::uint32_t> tets, triangles, edges, surface, lines;
+  std::vector<char> wanted = {};
+  std::vector<std::uint32_t> tets = {}, triangles = {}, edges = {}, surface = {}, lines = {};
 };
 Piece extract(const Piece& from, const Extract& what);
 

@@ -41,7 +41,7 @@ class TETMEND_API Proposal {
   std::vector<TetVertices> created_;
   bool moves_ = false;
   VertexHandle vertex_;
-  Point place_;
+  Point place_ = {0, 0, 0};
 };
 
 /// Decides whether what an operator of a program did stays.

@@ -22,7 +22,7 @@ namespace tetmend {
 /// What measure() is to find out besides the statistics.
 struct MeasureOptions {
   std::vector<std::string> measure = {};  ///< names of further measures, see measures()
-  Goal goal;                              ///< a tet that misses it is bad
+  Goal goal = {};                         ///< a tet that misses it is bad
   bool rulers = true;                     ///< give Measurement::rulers
   bool limit = false;     ///< prove what the surface allows; seconds for a large mesh
   bool bad_tets = false;  ///< give Measurement::bad_tets; takes as long as `limit`

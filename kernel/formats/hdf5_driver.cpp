@@ -6,6 +6,7 @@
 
 #include "kernel/error.h"
 #include "kernel/formats/hdf5_file.h"
+#include "kernel/printable.h"
 
 namespace tetmend::formats {
 namespace {
@@ -18,6 +19,11 @@ const Hdf5Driver& driver_for(const std::string& name, std::string_view format) {
 }
 
 }  // namespace
+
+void Hdf5Reader::fail(const std::string& path, std::string_view reason) const {
+  throw Error(
+      fmt::format("{}: '{}': {}", name_, printable(path == "/" ? path : "/" + path, 200), reason));
+}
 
 std::vector<std::string> text_rows(std::string_view characters, std::size_t width) {
   std::vector<std::string> rows;

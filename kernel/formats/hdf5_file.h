@@ -55,10 +55,11 @@ class Hdf5Reader {
   /// As it stands, with blanks; empty where it is not there.
   virtual std::string text(const std::string& path, const char* attribute) const = 0;
 
-  [[noreturn]] virtual void fail(const std::string& path, std::string_view reason) const = 0;
+  /// @throws Error that names file and path
+  [[noreturn]] void fail(const std::string& path, std::string_view reason) const;
 
  protected:
-  explicit Hdf5Reader(std::size_t file_size) : file_size_(file_size) {}
+  explicit Hdf5Reader(const InputFile& file) : name_(file.name()), file_size_(file.size()) {}
 
   /// Numbers of a table that are about to be read. All that is read of a file has to be less than a
   /// bomb: a table may be packed, and named again and again.
@@ -72,6 +73,7 @@ class Hdf5Reader {
   }
 
  private:
+  std::string name_;
   std::size_t file_size_;
   mutable std::uint64_t taken_ = 0;
 };

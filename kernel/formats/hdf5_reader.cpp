@@ -10,7 +10,6 @@
 #include "kernel/error.h"
 #include "kernel/formats/hdf5_file.h"
 #include "kernel/formats/hdf5_handle.h"
-#include "kernel/printable.h"
 
 namespace tetmend::formats {
 namespace {
@@ -21,7 +20,7 @@ constexpr std::uint64_t kMostUnpacked = 1100;
 class MemoryReader final : public Hdf5Reader {
  public:
   MemoryReader(const InputFile& input, std::string_view format)
-      : Hdf5Reader(input.size()), input_(input), file_(open(input), H5Fclose) {
+      : Hdf5Reader(input), input_(input), file_(open(input), H5Fclose) {
     if (input.size() == 0) {
       input.fail_at_byte(input.begin(), "the file is empty: expected a file of HDF5");
     }
@@ -143,11 +142,6 @@ class MemoryReader final : public Hdf5Reader {
     if (H5Aread(opened, type, found.data()) < 0) fail_attribute(path, attribute);
     found.resize(std::min(found.find('\0'), found.size()));
     return found;
-  }
-
-  [[noreturn]] void fail(const std::string& path, std::string_view reason) const override {
-    throw Error(fmt::format("{}: '{}': {}", input_.name(),
-                            printable(path == "/" ? path : "/" + path, 200), reason));
   }
 
  private:

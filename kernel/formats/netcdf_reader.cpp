@@ -12,7 +12,6 @@
 #include "kernel/error.h"
 #include "kernel/formats/byte_reader.h"
 #include "kernel/formats/netcdf_file.h"
-#include "kernel/printable.h"
 
 namespace tetmend::formats {
 namespace {
@@ -53,8 +52,7 @@ struct NetcdfTable {
 
 class ClassicReader final : public Hdf5Reader {
  public:
-  explicit ClassicReader(const InputFile& input)
-      : Hdf5Reader(input.size()), input_(input), bytes_(input) {
+  explicit ClassicReader(const InputFile& input) : Hdf5Reader(input), input_(input), bytes_(input) {
     bytes_.set_swap(std::endian::native == std::endian::little);
     read_header();
   }
@@ -119,11 +117,6 @@ class ClassicReader final : public Hdf5Reader {
     const NetcdfTable& of = path == "/" ? file_ : table(path);
     const auto found = of.texts.find(attribute);
     return found == of.texts.end() ? std::string() : found->second;
-  }
-
-  [[noreturn]] void fail(const std::string& path, std::string_view reason) const override {
-    throw Error(fmt::format("{}: '{}': {}", input_.name(),
-                            printable(path == "/" ? path : "/" + path, 200), reason));
   }
 
  private:

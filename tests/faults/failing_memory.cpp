@@ -37,6 +37,10 @@ void* allocate_or_throw(std::size_t size, Alignment... alignment) {
 
 }  // namespace
 
+#if defined(__GNUC__) && !defined(__clang__)
+#pragma GCC diagnostic ignored \
+    "-Wmismatched-new-delete"  // gcc sees free() where all of these are inlined
+#endif
 // Arrays and the other forms of delete come here, too.
 void* operator new(std::size_t size) {
   return allocate_or_throw(size);

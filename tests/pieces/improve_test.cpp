@@ -164,7 +164,8 @@ TEST_CASE("a mesh in pieces is adapted to lengths, as far as one that is whole")
     CHECK(result.sizes_after->in_range > as_one.sizes_after->in_range - 0.05);
     CHECK(result.not_positive_after == 0);
     CHECK(std::abs(result.volume_change()) < 1e-9);
-    const double ratio = static_cast<double>(made.tets.size()) / as_one.after.tets;
+    const double ratio =
+        static_cast<double>(made.tets.size()) / static_cast<double>(as_one.after.tets);
     CHECK(std::abs(ratio - 1) < 0.15);
     if (options.surface.empty())
       CHECK(result.surface_fingerprint == result.surface_fingerprint_before);

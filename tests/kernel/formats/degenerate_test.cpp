@@ -146,7 +146,9 @@ TEST_CASE("of tets in any order the repeated ones are those that a set finds") {
       std::array<std::uint32_t, 4> v{};
       // Neighbours, as in most meshes, and a fan around the first point.
       const std::uint32_t around = t % 3 == 0 ? 0 : static_cast<std::uint32_t>(random() % points);
-      for (std::uint32_t& corner : v) corner = (around + random() % 12) % points;
+      for (std::uint32_t& corner : v) {
+        corner = (around + static_cast<std::uint32_t>(random() % 12)) % points;
+      }
       if (t % 7 == 0 && t > 0) v = mesh.tets[random() % t].vertices;
       std::shuffle(v.begin(), v.end(), random);
       mesh.tets.push_back({v, 1});

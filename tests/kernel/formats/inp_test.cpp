@@ -524,7 +524,7 @@ TEST_CASE("a deck of one part and instance keeps what is in its assembly") {
 
 TEST_CASE("an *ELEMENT without rows stays in the deck, where its part counts as the mesh") {
   const TempFolder folder;
-  for (const std::string deck :
+  for (const std::string& deck :
        {"*PART, NAME=A\n*NODE\n1, 0, 0, 0\n*ELEMENT, TYPE=C3D4, ELSET=E, 1, 2, 3, 4\n** cut\n*END "
         "PART\n*PART, NAME=B\n" +
             std::string(kSmall) + "*END PART\n",

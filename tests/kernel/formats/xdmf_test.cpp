@@ -102,7 +102,8 @@ TEST_CASE("arrays whose names are no text, or end in blanks, have tables that XD
   MeshData mesh = read_mesh(folder / "a.xdmf");
   mesh.point_data.clear();
   for (const char* name : {"\xe9q", "\xc3\xa9q", "T ", " T", "a/b", "a_b", ".", "..", "x\ny"})
-    mesh.point_data.push_back({name, 1, std::vector<double>(5, mesh.point_data.size())});
+    mesh.point_data.push_back(
+        {name, 1, std::vector<double>(5, static_cast<double>(mesh.point_data.size()))});
   write_mesh(folder / "b.xdmf", mesh);
   const MeshData again = read_mesh(folder / "b.xdmf");
   REQUIRE(again.point_data.size() == mesh.point_data.size());
@@ -177,7 +178,9 @@ TEST_CASE("points of XDMF axis by axis, and numbers of a binary file, are read a
   CHECK(error_of_reading(folder / "b.xdmf").find("the axes have different lengths") !=
         std::string::npos);
   std::string bytes(3, 'x');  // before the numbers, the highest byte of which comes first
-  for (const char vertex : {0, 1, 2, 3, 0, 2, 1, 4}) bytes += std::string(3, '\0') + vertex;
+  for (const char vertex : {'\0', '\1', '\2', '\3', '\0', '\2', '\1', '\4'}) {
+    bytes += std::string(3, '\0') + vertex;
+  }
   write_text(folder / "cells.bin", bytes);
   const std::string binary =
       replaced(small_xdmf(), "NumberType=\"Int\" Format=\"XML\">0 1 2 3  0 2 1 4",

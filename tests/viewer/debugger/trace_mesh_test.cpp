@@ -24,8 +24,8 @@ namespace {
 
 /// Everything that the viewer keeps of the mesh of a trace.
 struct Kept {
-  Kept(Debugger& debugger, SceneSettings chosen, std::size_t most_bad)
-      : mesh(debugger.mesh()), settings(std::move(chosen)), most_bad(most_bad) {
+  Kept(Debugger& debugger, SceneSettings chosen, std::size_t most)
+      : mesh(debugger.mesh()), settings(std::move(chosen)), most_bad(most) {
     if (settings.peel > 0) layers = distances_from_boundary(mesh);
     const auto input = scene_input();
     scene.build(input);
