@@ -5,7 +5,7 @@ function(tetmend_layer folder below)
        ${PROJECT_SOURCE_DIR}/${folder}/*.cpp ${PROJECT_SOURCE_DIR}/${folder}/*.h)
   string(REPLACE "/" "_" name ${folder})
   list(FILTER sources EXCLUDE REGEX "/kernel/surface\\.(h|cpp)$")  # see tetmend_surface
-  list(FILTER sources EXCLUDE REGEX "/kernel/formats/hdf5_(reader|writer)\\.cpp$")  # see tetmend_hdf5
+  list(FILTER sources EXCLUDE REGEX "/kernel/formats/hdf5_(calls|reader|writer)\\.cpp$")  # see tetmend_hdf5
   add_library(tetmend_${name} STATIC ${sources})
   target_include_directories(tetmend_${name} PUBLIC ${PROJECT_SOURCE_DIR} ${PROJECT_SOURCE_DIR}/include)
   target_compile_features(tetmend_${name} PUBLIC cxx_std_20)

@@ -57,8 +57,10 @@ tetmend_package(development libtetmend-dev libdevel "improvement of tetrahedral 
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_RECOMMENDS libeigen3-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SUGGESTS tetmend)
 if(TARGET tetmend)
+  # By hand: HDF5, which is opened when a file of it is met.
   tetmend_package(program tetmend science "improvement of tetrahedral meshes - command line"
-    "tetmend improves tetrahedral meshes.\n${surface_stays}\nIt reads and writes the files of Gmsh, VTK, MEDIT, TetGen, SU2, Netgen,\nNastran, Abaqus, CalculiX, LS-DYNA, FEBio, MFEM, Elmer, Salome, and universal files.")
+    "tetmend improves tetrahedral meshes.\n${surface_stays}\nIt reads and writes the files of Gmsh, VTK, MEDIT, TetGen, SU2, Netgen,\nNastran, Abaqus, CalculiX, LS-DYNA, FEBio, MFEM, Elmer, Salome, and universal files."
+    ${hdf5_name_package})
   set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS "tetmend-viewer")
 endif()
 if(TARGET tetmend-view)

@@ -12,6 +12,9 @@
 #include <hdf5.h>
 
 #include "kernel/formats/hdf5_file.h"
+#ifdef TETMEND_LOADS_HDF5  // its library by that name; else a program is linked with one
+#include "kernel/formats/hdf5_calls.h"
+#endif
 
 namespace tetmend::formats {
 

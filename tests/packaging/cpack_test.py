@@ -103,6 +103,10 @@ class Packages(unittest.TestCase):
         for package in EXPECTED & {"libtetmend-dev", "python3-tetmend"}:
             self.assertIn(itself, self.field(package, "Depends"))
 
+    def test_the_program_depends_on_hdf5_which_it_opens_for_its_files(self) -> None:
+        self.assertNotIn("libhdf5", output("readelf", "-d", BUILD / "bin" / "tetmend"))
+        self.assertTrue(any(each.startswith("libhdf5-") for each in self.depends("tetmend")))
+
     @unittest.skipUnless("tetmend-viewer" in EXPECTED, "the viewer is not built")
     def test_the_viewer_depends_on_what_it_opens_as_it_runs(self) -> None:
         """The names that epoxy and GLFW give to dlopen; the font that the panels ask for."""
