@@ -33,7 +33,7 @@ NAVIGATION: dict[str, list[str]] = {
     "overview": ["glossary", "deviations"],
     "results": ["experiments", "results/rivals", "results/schedules", "results/ablation", "results/promises", "results/adapted",
                 "results/tangled", "results/renumbered", "results/reconnection", "results/angles",
-                "results/constraints", "results/surface", "results/sizes", "results/solvers", "results/cores", "results/growth", "results/viewing",
+                "results/constraints", "results/surface", "results/sizes", "results/solvers", "results/cores", "results/growth", "results/viewing", "results/kernel",
                 "results/ranks", "results/files", "results/parts"],
     "reliability": ["results/coverage", "results/faults", "results/fuzzing"],
     "reference": ["command-line", "formats", "cpp", "python-reference", "c-reference", "fortran-reference", "viewer-words",

@@ -58,6 +58,7 @@ NOT_RUN = {
     "coverage": "all tests",
     "faults": "counts of what was tried",
     "files": "times only",
+    "kernel": "times only",
     "fuzzing": "counts of what was tried",
     "parts": "times only",
     "promises": "sums over more than a thousand runs",
