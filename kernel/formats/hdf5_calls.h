@@ -3,14 +3,18 @@
 // with it, a program would load it and the 30 libraries that it needs whenever it starts.
 #pragma once
 
+#include <string>
+
 #include <hdf5.h>
 
 namespace tetmend::formats {
 
-/// The address of a name of HDF5. @throws Error where the library is not installed
+/// Loads the library, for a file of this name. @throws Error where it is not installed
+void load_hdf5(const std::string& file);
+/// The address of a name of HDF5. Precondition for it and what follows: load_hdf5(), and a Hdf5Turn.
 void* find_in_hdf5(const char* name);
 
-/// A function, found when it is called first. Precondition for all: a Hdf5Turn.
+/// A function, found when it is called first.
 template <class Function>
 class Hdf5Call;
 template <class Result, class... Arguments>
@@ -40,7 +44,8 @@ class Hdf5Number {
 };
 
 // Within this namespace they hide those that <hdf5.h> declares, also for its macros.
-#define TETMEND_HDF5_CALL(name) inline const Hdf5Call<decltype(&::name)> name(TETMEND_HDF5_TEXT(name));
+#define TETMEND_HDF5_CALL(name) \
+  inline const Hdf5Call<decltype(&::name)> name(TETMEND_HDF5_TEXT(name));
 #define TETMEND_HDF5_TEXT(name) #name
 TETMEND_HDF5_CALL(H5open)
 TETMEND_HDF5_CALL(H5check_version)

@@ -60,11 +60,17 @@ inline hid_t hdf5_type<double>() {
 /// HDF5 as Debian builds it is for one thread at a time; and what goes wrong is told by us.
 class Hdf5Turn {
  public:
-  Hdf5Turn() : lock_(mutex()) {
+  /// For a file of this name.
+  explicit Hdf5Turn([[maybe_unused]] const std::string& file) : lock_(mutex()) {
+#ifdef TETMEND_LOADS_HDF5
+    load_hdf5(file);
+#endif
     H5Eget_auto2(H5E_DEFAULT, &print_, &to_);
     H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
   }
-  ~Hdf5Turn() { H5Eset_auto2(H5E_DEFAULT, print_, to_); }
+  ~Hdf5Turn() {
+    H5Eset_auto2(H5E_DEFAULT, print_, to_);
+  }
   Hdf5Turn(const Hdf5Turn&) = delete;
   Hdf5Turn& operator=(const Hdf5Turn&) = delete;
 

@@ -20,7 +20,7 @@ constexpr std::uint64_t kMostUnpacked = 1100;
 class MemoryReader final : public Hdf5Reader {
  public:
   MemoryReader(const InputFile& input, std::string_view format)
-      : Hdf5Reader(input), input_(input), file_(open(input), H5Fclose) {
+      : Hdf5Reader(input), turn_(input.name()), input_(input), file_(open(input), H5Fclose) {
     if (input.size() == 0) {
       input.fail_at_byte(input.begin(), "the file is empty: expected a file of HDF5");
     }

@@ -21,7 +21,8 @@ constexpr unsigned kInOrder = H5P_CRT_ORDER_TRACKED | H5P_CRT_ORDER_INDEXED;
 class MemoryWriter final : public Hdf5Writer {
  public:
   explicit MemoryWriter(std::string name)
-      : name_(std::move(name)),
+      : turn_(name),
+        name_(std::move(name)),
         in_order_(H5Pcreate(H5P_GROUP_CREATE), H5Pclose),
         file_(std::in_place, create(), H5Fclose) {
     H5Pset_obj_track_times(in_order_, false);

@@ -155,7 +155,7 @@ class InpFacesReader {
         made.goes_on = next > first_use;
         made.scope = named.scope;
         made.instance = prefix;
-        made.prefix = "S";
+        made.prefix = std::string("S");
         made.name = made.goes_on ? name + "_" + prefix.substr(0, prefix.size() - 1) : name;
         result_.uses.push_back(std::move(made));
       }
