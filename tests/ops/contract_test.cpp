@@ -76,9 +76,8 @@ TEST_CASE("each operator keeps the promise of whichever judge decides") {
 
 TEST_CASE("each operator keeps its contract with each parameter at the ends of its range") {
   const Registry registry = Registry::builtin();
-  check_all(
-      operators_at_their_limits(registry), false,
-      [](const Operator& op, const TetMesh& mesh) { return try_in_sweeps(op, mesh, 1, 60); });
+  check_all(operators_at_their_limits(registry), false,
+            [](const Operator& op, const TetMesh& mesh) { return try_in_sweeps(op, mesh, 1, 60); });
 }
 
 TEST_CASE("operators keep the contract when they work one after the other on the same mesh") {
