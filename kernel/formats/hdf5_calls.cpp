@@ -11,13 +11,13 @@ namespace tetmend::formats {
 namespace {
 
 const platform::SharedLibrary& hdf5_library() {
-  static const platform::SharedLibrary library = [] {
+  static const platform::SharedLibrary kLibrary = [] {
     platform::SharedLibrary opened(TETMEND_LOADS_HDF5);
     if (!opened.is_open()) throw Error(platform::loading_error());
     opened.pin();  // it has work to do when the program ends
     return opened;
   }();
-  return library;
+  return kLibrary;
 }
 
 }  // namespace
