@@ -7,7 +7,6 @@
 #include "platform/platform.h"
 
 namespace tetmend::formats {
-
 namespace {
 
 const platform::SharedLibrary& hdf5_library() {

@@ -119,9 +119,9 @@ std::vector<QuotedParameter> parameters_of(const std::string& page) {
 bool has_value(const std::string& source, const QuotedParameter& parameter) {
   const std::string value =
       std::regex_replace(parameter.value, std::regex("[.*+?^${}()|\\[\\]\\\\]"), "\\$&");
-  const std::regex kForms("\\b" + parameter.name + "( = |\", default = |\"(,\\s+[^,{}]*){3},\\s+)" +
-                          value + "f?[;,})\\s]");
-  return std::regex_search(source, kForms);
+  const std::regex forms("\\b" + parameter.name + "( = |\", default = |\"(,\\s+[^,{}]*){3},\\s+)" +
+                         value + "f?[;,})\\s]");
+  return std::regex_search(source, forms);
 }
 
 /// The last cells of the rows of its tables: what holds a deviation.
