@@ -23,7 +23,8 @@ from pathlib import Path
 import unity_names
 
 MOST = 32  # sources in a batch
-ALONE = ["pieces/medit_slices.cpp", "viewer/ui/drawing_canvas.cpp"]  # they hide functions of headers: only a compiler knows
+# They hide functions of headers, which only a compiler knows; or want another HDF5 than the others.
+ALONE = ["pieces/medit_slices.cpp", "viewer/ui/drawing_canvas.cpp", "mpi/hdf5_file.cpp"]
 # Of the standard and of others: what many sources include.
 PRECOMPILED = """algorithm any array atomic charconv cmath condition_variable cstdint cstring deque filesystem fstream functional
     iostream limits list map memory mutex numeric optional queue random regex set span sstream string string_view thread tuple
