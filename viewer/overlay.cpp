@@ -168,7 +168,10 @@ class OverlayDrawer {
     constexpr double kLength = 30;
     const Camera& camera = document_.view.camera;
     const double length = kLength * scale_;
-    const Place middle = {right_ - 2 * length, bottom_ - 2 * length};
+    const bool is_taken = document_.view.colour_bar;  // the lower right
+    const bool is_over_scale = is_taken && document_.view.scale_bar;
+    const Place middle = {is_taken ? left_ + 2 * length : right_ - 2 * length,
+                          bottom_ - (is_over_scale ? 3 : 2) * length};
     struct Axis {
       glm::dvec3 direction;
       Colour colour;

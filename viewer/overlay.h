@@ -16,7 +16,7 @@ namespace tetmend::viewer {
 struct OverlayLook {
   double scale = 1;        ///< 1 for an ordinary screen, 2 for one with twice as many pixels
   double text_size = 16;   ///< of numbers and legend
-  bool has_triad = false;  ///< the directions of the axes, at the lower right
+  bool has_triad = false;  ///< the directions of the axes, in a lower corner
   /// Of a text of that size, as it will be painted.
   std::function<double(const std::string&, double)> text_width =
       [](const std::string& text, double size) { return figure::text_width(text, size); };

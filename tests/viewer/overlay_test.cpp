@@ -77,6 +77,28 @@ TEST_CASE("a scale bar is as long as it says") {
   CHECK(pixels > 0.08 * s.document.canvas.width);
 }
 
+TEST_CASE("the axes stand at the lower right, and opposite to a colour bar over the scale bar") {
+  TestSession s(test::kuhn_cube(2, 0, 1));
+  const auto place_of_x = [&] {
+    const figure::Drawing drawing = draw_overlay(s.document, {.has_triad = true});
+    for (const figure::Shape& shape : drawing.shapes) {
+      const auto* text = std::get_if<figure::Text>(&shape);
+      if (text != nullptr && text->text == "x") return text->at;
+    }
+    FAIL("no axes");
+    return figure::Place{};
+  };
+  const double middle = s.document.canvas.width / 2.0;
+  const figure::Place alone = place_of_x();
+  CHECK(alone.x > middle);
+  s.run("scale_bar");
+  CHECK(place_of_x().y == alone.y);
+  s.run("colour", {"quality"});
+  s.run("colour_bar");
+  CHECK(place_of_x().x < middle);
+  CHECK(place_of_x().y < alone.y);
+}
+
 TEST_CASE("twice the scale makes words twice as large, at twice the distance from the border") {
   TestSession s(test::kuhn_cube(2, 0, 1));
   s.document.view.title = "t";
