@@ -9,7 +9,9 @@
 
 #include <fmt/format.h>
 
+#include "kernel/error.h"
 #include "kernel/formats/included_path.h"
+#include "kernel/formats/lsdyna.h"
 #include "kernel/formats/nastran_card.h"
 
 namespace tetmend::formats {
@@ -274,6 +276,16 @@ std::vector<std::string_view> LsDynaDeck::lines(const LsDynaBlock& block) const 
     if (!is_comment(line)) found.push_back(line);
   }
   return found;
+}
+
+std::vector<std::filesystem::path> lsdyna_files(const std::filesystem::path& deck) {
+  try {
+    std::vector<std::filesystem::path> files = LsDynaDeck(deck).files();
+    files.front() = deck;  // of standard input, too
+    return files;
+  } catch (const Error&) {
+    return {deck};
+  }
 }
 
 }  // namespace tetmend::formats

@@ -81,6 +81,20 @@ std::string LsDynaMesh::lines_of(std::string_view text) {
   return lines;
 }
 
+LsDynaMesh::Comments LsDynaMesh::comments_of(const char* begin, const char* end) {
+  Comments comments;
+  const char* behind = begin;
+  for (const char* at = begin; at != end;) {
+    if (!is_comment(next_line(at, end))) behind = at;
+  }
+  for (const char* at = begin; at != behind;) {
+    const std::string_view line = next_line(at, behind);
+    if (line.starts_with('$')) comments.inner += lines_of(line);
+  }
+  comments.trailing = {behind, static_cast<std::size_t>(end - behind)};
+  return comments;
+}
+
 NumberIndex LsDynaMesh::index_of(const std::vector<std::int64_t>& numbers,
                                  const std::vector<const char*>& places,
                                  std::string_view what) const {

@@ -26,6 +26,12 @@ class LsDynaMesh : protected LsDynaDeck {
  protected:
   /// With a line break at the end, if they are not empty.
   static std::string lines_of(std::string_view text);
+  /// Comment lines between two places of a block, and those behind its last other line.
+  struct Comments {
+    std::string inner;
+    std::string_view trailing;
+  };
+  static Comments comments_of(const char* begin, const char* end);
 
   TetPlace* question_;
   MeshData mesh_;

@@ -12,7 +12,6 @@
 
 #include <fmt/format.h>
 
-#include "kernel/error.h"
 #include "kernel/formats/element_rows.h"
 #include "kernel/formats/element_sets.h"
 #include "kernel/formats/harmless_notes.h"
@@ -116,25 +115,6 @@ class LsDynaReader : LsDynaMesh {
     if (std::find(mesh_.notes.begin(), mesh_.notes.end(), note) == mesh_.notes.end()) {
       mesh_.notes.push_back(std::move(note));
     }
-  }
-
-  /// Comment lines between two places of a block, and those behind its last other line.
-  struct Comments {
-    std::string inner;
-    std::string_view trailing;
-  };
-  static Comments comments_of(const char* begin, const char* end) {
-    Comments comments;
-    const char* behind = begin;
-    for (const char* at = begin; at != end;) {
-      if (!is_comment(next_line(at, end))) behind = at;
-    }
-    for (const char* at = begin; at != behind;) {
-      const std::string_view line = next_line(at, behind);
-      if (line.starts_with('$')) comments.inner += lines_of(line);
-    }
-    comments.trailing = {behind, static_cast<std::size_t>(end - behind)};
-    return comments;
   }
 
   /// Nodes and solids stand where the first of them stood, with the comments between them in front.
@@ -408,16 +388,6 @@ class LsDynaReader : LsDynaMesh {
 
 MeshData read_lsdyna(const std::filesystem::path& file, TetPlace* question) {
   return LsDynaReader(file, question).read();
-}
-
-std::vector<std::filesystem::path> lsdyna_files(const std::filesystem::path& deck) {
-  try {
-    std::vector<std::filesystem::path> files = LsDynaDeck(deck).files();
-    files.front() = deck;  // of standard input, too
-    return files;
-  } catch (const Error&) {
-    return {deck};
-  }
 }
 
 }  // namespace tetmend::formats
