@@ -262,6 +262,7 @@ TEST_CASE("walks and finds agree with a look at every tet") {
     CHECK(mesh.find_face(a, b, c) == f);
     CHECK(mesh.find_face(b, c, a) == f);
     if (!mesh.is_boundary(f)) CHECK(mesh.find_face(a, c, b) == mesh.twin(f));
+    CHECK(mesh.twins(f.tet())[f.face()] == mesh.twin(f));
   }
   for (const HalfFace f : mesh.boundary()) outer += mesh.is_boundary(f) ? 1 : 0;
   CHECK(2 * faces == 4 * mesh.tet_count() + outer);
