@@ -152,13 +152,14 @@ std::vector<std::uint32_t> LoosePoints::of(const std::vector<std::uint32_t>& mem
   return loose;
 }
 
-void number_sets(std::vector<ElementSet>& sets) {
+void number_sets(std::vector<ElementSet>& sets, std::span<const std::int64_t> avoided) {
   std::unordered_set<std::int64_t> taken;
   for (ElementSet& set : sets) {
     const bool is_free =
         set.number > 0 && set.number <= INT32_MAX && taken.insert(set.number).second;
     if (!is_free) set.number = 0;
   }
+  taken.insert(avoided.begin(), avoided.end());
   std::int64_t next = 0;
   for (ElementSet& set : sets) {
     if (set.number != 0) continue;

@@ -68,7 +68,8 @@ struct ElementSet {
 };
 
 /// Gives each set a number of 1 or more that no other has: its own, where it is the first with it.
-void number_sets(std::vector<ElementSet>& sets);
+/// @param avoided  a new number is none of these
+void number_sets(std::vector<ElementSet>& sets, std::span<const std::int64_t> avoided = {});
 
 /// Makes a group of each set, in each dimension that it has members of, and parts of the elements:
 /// those of one part are in the same sets, and have the same home. So faces between sets stay.

@@ -21,6 +21,8 @@ namespace tetmend::formats {
 
 /// MeshData::variant of such a mesh: its deck is ours.
 inline constexpr std::string_view kExodus = "Exodus";
+/// Pieces of the deck: our number and that of the file, of each.
+inline constexpr std::string_view kShellNumbers = "block", kElementSetNumbers = "element set";
 
 struct ExodusType {
   std::string_view begin;  ///< of its name; what follows is a number of nodes, or nothing
@@ -80,6 +82,8 @@ bool is_exodus_name(std::string_view name);
 
 /// How many pieces of its deck a reader of another format would miss.
 std::size_t exodus_pieces_to_miss(const MeshData& mesh);
+/// How many of its blocks and sets have other numbers in a mesh, for two of the file had one.
+std::size_t exodus_numbers_to_miss(const MeshData& mesh);
 
 /// Blocks are labels, side sets triangles with labels, sets and blocks with names groups. Of variables
 /// the first step is an array. @throws Error

@@ -4,7 +4,8 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <set>
+
+#include <fmt/format.h>
 
 #include "kernel/formats/exodus_tables.h"
 #include "kernel/formats/face_sides.h"
@@ -17,6 +18,17 @@ void number_all(ExodusPlan::Sets& sets) {
   for (const auto& [set, members] : sets) all.push_back(set);
   number_sets(all);
   for (std::size_t s = 0; s < sets.size(); ++s) sets[s].first = std::move(all[s]);
+}
+
+/// Of labels or groups: the numbers that a file of Exodus had for them.
+std::map<Label, std::int64_t> numbers_of_file(const MeshData* mesh, std::string_view what) {
+  std::map<Label, std::int64_t> numbers;
+  for (const std::string& piece : exodus_pieces(mesh, what)) {
+    char* end = nullptr;
+    const auto ours = static_cast<Label>(std::strtol(piece.c_str(), &end, 10));
+    numbers[ours] = std::strtoll(end, nullptr, 10);
+  }
+  return numbers;
 }
 
 /// From 1: the side of a volume that has all corners of a face.
@@ -68,13 +80,12 @@ ExodusPlan::ExodusPlan(const MeshView& mesh, const ElementLists& lists)
     : mesh_(mesh), lists_(lists), members_(members_of_groups(mesh, lists)) {
   collect_blocks();
   collect_sets();
+  number_blocks();
 }
 
 /// All but triangles and quadrilaterals that are faces of volumes, and were no elements before.
 void ExodusPlan::collect_blocks() {
-  std::set<Label> shells;
-  for (const std::string& number : exodus_pieces(mesh_.data(), "block"))
-    shells.insert(static_cast<Label>(std::strtol(number.c_str(), nullptr, 10)));
+  const std::map<Label, std::int64_t> shells = numbers_of_file(mesh_.data(), kShellNumbers);
   const auto sides = find_face_sides(mesh_, lists_);
   std::size_t surface = 0;
   is_side_.resize(lists_.all().size());
@@ -99,13 +110,29 @@ void ExodusPlan::collect_blocks() {
     }
   }
   std::uint32_t next = 0;
-  std::vector<ElementSet> sets;
-  for (Block& block : blocks) {
+  for (const Block& block : blocks) {
     for (const std::uint32_t i : block.elements) place[block.list_number][i] = ++next;
-    sets.push_back(block.set);
   }
   count = next;
-  number_sets(sets);
+}
+
+/// A new number is none of a side set, whose faces it would be read as.
+void ExodusPlan::number_blocks() {
+  const std::map<Label, std::int64_t> shells = numbers_of_file(mesh_.data(), kShellNumbers);
+  std::vector<std::int64_t> of_sides;
+  for (const auto& [set, members] : side_sets) of_sides.push_back(set.number);
+  std::vector<ElementSet> sets;
+  for (const Block& block : blocks) {
+    sets.push_back(block.set);
+    if (block.list->kind.dimension != 2) continue;
+    std::int64_t& number = sets.back().number;
+    if (const auto shell = shells.find(block.label); shell != shells.end()) {
+      number = shell->second;
+    } else if (std::find(of_sides.begin(), of_sides.end(), number) != of_sides.end()) {
+      number = 0;
+    }
+  }
+  number_sets(sets, of_sides);
   for (std::size_t b = 0; b < blocks.size(); ++b) blocks[b].set = std::move(sets[b]);
 }
 
@@ -127,6 +154,7 @@ void ExodusPlan::collect_sets() {
   UniqueNames changed(kExodusNames);
   std::vector<std::vector<bool>> is_named(lists_.all().size());
   for (std::size_t k = 0; k < is_named.size(); ++k) is_named[k].resize(lists_.all()[k].count);
+  const auto numbers = numbers_of_file(mesh_.data(), kElementSetNumbers);
   for (std::size_t g = 0; g < members_.size(); ++g) {
     if (group(g).name.empty() && group(g).dimension > 0) continue;  // it is a label
     std::string name = group(g).name;
@@ -147,6 +175,8 @@ void ExodusPlan::collect_sets() {
       is_named[k][i] = true;
     }
     if (!sides.empty()) side_sets.emplace_back(set, std::move(sides));
+    const auto known = numbers.find(group(g).number);
+    if (known != numbers.end()) set.number = known->second;
     if (!elements.empty()) element_sets.emplace_back(set, std::move(elements));
   }
   add_unnamed_faces(is_named);
@@ -166,6 +196,26 @@ void ExodusPlan::add_unnamed_faces(const std::vector<std::vector<bool>>& is_name
       side_sets[at->second].second.push_back({k, i});
     }
   }
+}
+
+std::pair<std::size_t, std::string> ExodusPlan::new_labels() const {
+  const auto shells = numbers_of_file(mesh_.data(), kShellNumbers);
+  std::size_t changed = 0;
+  std::string first;
+  const auto look = [&](const ElementList& list, Label label, std::int64_t number) {
+    if (label == 0 || number == label) return;
+    if (changed++ == 0)
+      first = fmt::format("{} of kind '{}' becomes {}", label, list.kind.name, number);
+  };
+  for (const Block& block : blocks) {
+    const bool is_of_file = block.list->kind.dimension == 2 && shells.contains(block.label);
+    if (!is_of_file) look(*block.list, block.label, block.set.number);
+  }
+  for (const auto& [set, faces] : side_sets) {
+    const ElementList& list = lists_.all()[faces[0].list];
+    if (set.name.empty()) look(list, list.label(faces[0].index), set.number);
+  }
+  return {changed, first};
 }
 
 std::pair<std::int32_t, std::int32_t> ExodusPlan::side(const GroupMembers::Member& face) const {

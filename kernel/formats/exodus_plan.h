@@ -64,12 +64,17 @@ class ExodusPlan {
   std::vector<ElementSet> node_sets;
   Sets side_sets, element_sets;
 
+  /// Labels, but for 0, that are read again as others: how many, and the first as "1 of kind 'edge'
+  /// becomes 3".
+  std::pair<std::size_t, std::string> new_labels() const;
+
   /// Of a member of a side set: the number of its volume in the file, and of its side, from 1.
   std::pair<std::int32_t, std::int32_t> side(const GroupMembers::Member& face) const;
 
  private:
   const Group& group(std::size_t g) const { return mesh_.data()->groups[g]; }
   void collect_blocks();
+  void number_blocks();
   Block* block_of_group(const Members& elements);
   void collect_sets();
   void add_unnamed_faces(const std::vector<std::vector<bool>>& is_named);

@@ -308,48 +308,63 @@ class ExodusReader {
     if (places_.size() > before) homes_.push_back(static_cast<std::uint32_t>(blocks_.size()));
   }
 
-  /// Blocks of one dimension and sets of its elements share numbers.
+  /// Labels of blocks and sets of elements of one dimension differ. Blocks of volumes and side sets,
+  /// which decks of solvers name, keep their numbers.
   void number_sets_of_dimensions() {
-    std::vector<ElementSet> volumes, surfaces;
-    for (std::size_t b = 0; b < blocks_.size(); ++b) {
-      const ExodusBlock& block = blocks_[b];
+    number_blocks();
+    std::vector<ElementSet> volumes, shells;
+    for (const ExodusBlock& block : blocks_) {
       if (block.kind == nullptr) continue;
       ElementSet set{block.number, block.name, {}, {}};
-      (block.kind->dimension == 3 ? volumes : surfaces).push_back(std::move(set));
+      if (block.kind->dimension == 3) volumes.push_back(std::move(set));
+      if (block.kind->dimension == 2) shells.push_back(std::move(set));
     }
-    const auto number = [](std::vector<ElementSet>& blocks, std::vector<ElementSet>& sets) {
-      std::vector<ElementSet> all = std::move(blocks);
-      const std::size_t first = all.size();
-      std::move(sets.begin(), sets.end(), std::back_inserter(all));
-      number_sets(all);
-      sets.assign(std::make_move_iterator(all.begin() + static_cast<std::ptrdiff_t>(first)),
-                  std::make_move_iterator(all.end()));
-      all.resize(first);
-      blocks = std::move(all);
-    };
-    number(volumes, volumes_);
-    number(surfaces, surfaces_);
+    number_beside(volumes, volumes_, kElementSetNumbers);
+    number_sets(surfaces_);
+    number_beside(surfaces_, shells, kShellNumbers);
     number_sets(points_);
-    auto volume = volumes.begin();
-    auto surface = surfaces.begin();
+    auto shell = shells.begin();
     std::vector<ElementSet> named_volumes, named_surfaces;
     for (std::size_t b = 0; b < blocks_.size(); ++b) {
       ExodusBlock& block = blocks_[b];
       if (block.kind == nullptr) continue;
-      const bool is_volume = block.kind->dimension == 3;
-      ElementSet& set = is_volume ? *volume++ : *surface++;
-      block.number = set.number;
-      if (!is_volume) {
-        mesh_.deck.push_back(fmt::format("block{}{}", '\0', block.number));
-      }
+      if (block.kind->dimension == 2) block.number = (shell++)->number;
       if (block.name.empty()) continue;
+      ElementSet set{block.number, block.name, {}, {}};
       for (std::uint32_t i = 0; i < homes_.size(); ++i) {
         if (homes_[i] == b) set.elements.push_back(i);
       }
-      (is_volume ? named_volumes : named_surfaces).push_back(std::move(set));
+      (block.kind->dimension == 3 ? named_volumes : named_surfaces).push_back(std::move(set));
     }
     volumes_.insert(volumes_.begin(), named_volumes.begin(), named_volumes.end());
     surfaces_.insert(surfaces_.begin(), named_surfaces.begin(), named_surfaces.end());
+  }
+
+  void number_blocks() {
+    std::vector<ElementSet> all;
+    for (const ExodusBlock& block : blocks_) all.push_back({block.number, {}, {}, {}});
+    number_sets(all);
+    for (std::size_t b = 0; b < blocks_.size(); ++b) {
+      ExodusBlock& block = blocks_[b];
+      if (block.number != all[b].number) {
+        mesh_.notes.push_back(fmt::format("the {}. block has the number {} here: {} is not its own",
+                                          block.index, all[b].number, block.number));
+      }
+      block.number = all[b].number;
+    }
+  }
+
+  /// What numbers the file has for these is for the deck.
+  void number_beside(const std::vector<ElementSet>& others, std::vector<ElementSet>& sets,
+                     std::string_view piece) {
+    std::vector<ElementSet> all = others;
+    all.insert(all.end(), sets.begin(), sets.end());
+    number_sets(all);
+    for (std::size_t s = 0; s < sets.size(); ++s) {
+      const std::int64_t number = all[others.size() + s].number;
+      mesh_.deck.push_back(fmt::format("{}{}{} {}", piece, '\0', number, sets[s].number));
+      sets[s].number = number;
+    }
   }
 
   /// The first side set that has a face labels it.

@@ -79,4 +79,16 @@ std::size_t exodus_pieces_to_miss(const MeshData& mesh) {
                     [](const std::string& piece) { return piece.starts_with("info"); }));
 }
 
+std::size_t exodus_numbers_to_miss(const MeshData& mesh) {
+  const auto is_missed = [](const std::string& piece) {
+    const std::string_view whole = piece;
+    const std::string_view what = whole.substr(0, whole.find('\0'));
+    if (what != kShellNumbers && what != kElementSetNumbers) return false;
+    const std::string_view numbers = whole.substr(what.size() + 1);
+    const std::size_t space = numbers.find(' ');
+    return numbers.substr(0, space) != numbers.substr(space + 1);
+  };
+  return static_cast<std::size_t>(std::count_if(mesh.deck.begin(), mesh.deck.end(), is_missed));
+}
+
 }  // namespace tetmend::formats

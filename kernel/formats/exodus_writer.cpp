@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdlib>
 #include <map>
+#include <optional>
 #include <set>
 #include <sstream>
 #include <string>
@@ -125,10 +126,12 @@ class ExodusWriter {
     file_.add("eb_prop1", {"num_el_blk"}, std::move(ids), {{"name", "ID"}});
     file_.add_texts("eb_names", {"num_el_blk", "len_name"}, names);
     for (std::size_t b = 0; b < plan_.blocks.size(); ++b) write_block(plan_.blocks[b], b + 1);
-    const bool has_numbers = std::all_of(
-        lists_.all().begin(), lists_.all().end(),
-        [](const ElementList& list) { return list.kind.dimension < 3 || list.numbers != nullptr; });
-    if (!has_numbers) return;
+    const auto has_numbers = [](const ElementList& list) {
+      return list.kind.dimension == 3 && list.numbers != nullptr &&
+             std::any_of(list.numbers->begin(), list.numbers->end(),
+                         [](std::int64_t number) { return number > 0; });
+    };
+    if (std::none_of(lists_.all().begin(), lists_.all().end(), has_numbers)) return;
     const auto numbers = written_element_numbers(lists_, kMostOfExodus);
     std::vector<std::int32_t> all;
     for (const ExodusPlan::Block& block : plan_.blocks) {
@@ -325,6 +328,29 @@ void note_rounded(const std::vector<DataArray>& arrays, std::vector<std::string>
   }
 }
 
+/// Only where elements of several kinds share one is it worth to plan the file.
+void note_new_labels(const MeshData& mesh, std::vector<std::string>& notes) {
+  const MeshView view(mesh);
+  const ElementLists lists(view);
+  std::map<Label, std::size_t> list_of;
+  bool is_shared = false;
+  for (std::size_t k = 0; k < lists.all().size(); ++k) {
+    const ElementList& list = lists.all()[k];
+    std::optional<Label> last;
+    for (std::size_t i = 0; i < list.count; ++i) {
+      const Label label = list.label(i);
+      if (label == last) continue;
+      last = label;
+      is_shared = is_shared || label < 0 || list_of.try_emplace(label, k).first->second != k;
+    }
+  }
+  if (!is_shared) return;
+  const auto [count, first] = ExodusPlan(view, lists).new_labels();
+  if (count == 0) return;
+  notes.push_back(fmt::format(
+      "{} labels change, for .e has a number for each block of one kind: {}", count, first));
+}
+
 }  // namespace
 
 std::vector<std::string> not_in_exodus(const std::filesystem::path&, const MeshData& mesh) {
@@ -343,6 +369,7 @@ std::vector<std::string> not_in_exodus(const std::filesystem::path&, const MeshD
     notes.push_back(fmt::format("the group '{}' of no points is not kept: .e has no empty set",
                                 printable(group.name)));
   }
+  note_new_labels(mesh, notes);
   return notes;
 }
 

@@ -225,6 +225,8 @@ std::vector<std::string> lost_in(const Room& room, const std::string& extension,
              : mesh.variant == kUnv     ? unv_pieces_to_miss(mesh)
                                         : mesh.deck.size(),
              "pieces of a deck, all that is no mesh, are");
+  notes.lost(has_deck || mesh.variant != kExodus, exodus_numbers_to_miss(mesh),
+             "numbers of blocks and sets that others have, too, are");
   return std::move(notes.sentences);
 }
 

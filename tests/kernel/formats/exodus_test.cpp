@@ -69,6 +69,10 @@ struct SmallExodus {
   }
 };
 
+std::vector<std::int64_t> integers_of(const std::filesystem::path& file, const std::string& table) {
+  return formats::open_netcdf(InputFile(file), "Exodus")->integers(table);
+}
+
 }  // namespace
 
 TEST_CASE("a file of Exodus gives blocks as labels, side sets as triangles, sets as groups") {
@@ -79,9 +83,8 @@ TEST_CASE("a file of Exodus gives blocks as labels, side sets as triangles, sets
   CHECK(mesh.tets == std::vector<MeshData::Tet>{{{0, 1, 2, 3}, 10}, {{0, 2, 1, 4}, 20}});
   CHECK(mesh.tet_numbers == std::vector<std::int64_t>{7, 9});
   REQUIRE(mesh.triangles.size() == 2);  // the shell is side 1 of the first tet, too
-  CHECK(mesh.triangles[0] == MeshData::Triangle{{0, 1, 3}, 30});
-  CHECK(mesh.triangles[1].vertices == std::array<std::uint32_t, 3>{0, 4, 1});
-  CHECK(mesh.triangles[1].label == 1);  // block 30 has the number of the side set
+  CHECK(mesh.triangles[0] == MeshData::Triangle{{0, 1, 3}, 1});  // the side set is 30, too
+  CHECK(mesh.triangles[1] == MeshData::Triangle{{0, 4, 1}, 30});
   REQUIRE(find_group(mesh, "left") != nullptr);
   CHECK(find_group(mesh, "left")->dimension == 3);
   CHECK(find_group(mesh, "left")->number == 10);
@@ -97,6 +100,10 @@ TEST_CASE("what a file of Exodus holds survives writing, and writing again gives
   SmallExodus().write(folder / "a.e");
   const MeshData mesh = read_mesh(folder / "a.e");
   CHECK(not_written(folder / "b.e", mesh).empty());
+  const auto notes = not_written(folder / "b.msh", mesh);  // a shell block and a side set are 30
+  CHECK(std::count(notes.begin(), notes.end(),
+                   "1 numbers of blocks and sets that others have, too, are not kept: .msh has no "
+                   "place for them") == 1);
   write_mesh(folder / "b.e", mesh);
   const MeshData again = read_mesh(folder / "b.e");
   CHECK(again.tets == mesh.tets);
@@ -110,8 +117,47 @@ TEST_CASE("what a file of Exodus holds survives writing, and writing again gives
     CHECK(find_group(again, name)->members == find_group(mesh, name)->members);
   }
   CHECK(again.deck[0] == mesh.deck[0]);
+  CHECK(integers_of(folder / "b.e", "eb_prop1") == std::vector<std::int64_t>{10, 20, 30});
+  CHECK(integers_of(folder / "b.e", "ss_prop1") == std::vector<std::int64_t>{30});
   write_mesh(folder / "c.e", again);
   CHECK(read_text(folder / "b.e") == read_text(folder / "c.e"));
+}
+
+TEST_CASE(
+    "elements of several kinds with one label are blocks of Exodus with numbers of their own") {
+  const TempFolder folder;
+  MeshData mesh;
+  mesh.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {5, 5, 5}};
+  mesh.tets = {{{0, 1, 2, 3}, 1}};
+  mesh.triangles = {{{0, 2, 1}, 2}, {{0, 1, 4}, 2}};
+  mesh.edges = {{{0, 1}, 1}};
+  CHECK(not_written(folder / "a.e", mesh) ==
+        std::vector<std::string>{"2 labels change, for .e has a number for each block of one kind: "
+                                 "2 of kind 'triangle' becomes 3"});
+  write_mesh(folder / "a.e", mesh);
+  CHECK(integers_of(folder / "a.e", "eb_prop1") == std::vector<std::int64_t>{1, 3, 4});
+  CHECK(integers_of(folder / "a.e", "ss_prop1") == std::vector<std::int64_t>{2});
+  const MeshData again = read_mesh(folder / "a.e");
+  CHECK(again.notes.empty());
+  CHECK(again.triangles == std::vector<MeshData::Triangle>{{{0, 1, 4}, 3}, {{0, 2, 1}, 2}});
+  CHECK(again.edges[0].label == 4);
+  write_mesh(folder / "b.e", again);
+  CHECK(read_text(folder / "a.e") == read_text(folder / "b.e"));
+}
+
+TEST_CASE("a side set keeps its number beside a block of edges that has it") {
+  const TempFolder folder;
+  MeshData mesh;
+  mesh.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  mesh.tets = {{{0, 1, 2, 3}, 1}};
+  mesh.triangles = {{{0, 2, 1}, 2}};
+  mesh.edges = {{{0, 1}, 2}};
+  CHECK(not_written(folder / "a.e", mesh).empty());
+  write_mesh(folder / "a.e", mesh);
+  const MeshData again = read_mesh(folder / "a.e");
+  CHECK(again.notes.empty());
+  CHECK(again.triangles == mesh.triangles);
+  CHECK(again.edges == mesh.edges);
 }
 
 TEST_CASE("a side of a tet that is turned over is a side of the same tet after each writing") {
