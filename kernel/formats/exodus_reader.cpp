@@ -133,7 +133,7 @@ class ExodusReader {
       if (extents.size() == 2) block.kind = kind_of(path, extents[1]);
       block.count = extents.empty() ? 0 : static_cast<std::size_t>(extents[0]);
       const std::string of_polygons = numbered("ebepecnt", b);  // whose table is one of nodes
-      if (file_->has(of_polygons) && !file_->extents(of_polygons).empty())
+      if (block.kind == nullptr && file_->has(of_polygons) && !file_->extents(of_polygons).empty())
         block.count = static_cast<std::size_t>(file_->extents(of_polygons)[0]);
       blocks_.push_back(block);
       if (block.kind == nullptr) {

@@ -30,6 +30,7 @@ struct SmallExodus {
   Integers numbers = {7, 9, 11};
   Reals pressure = {1, 2, 3, 4, 5};
   Reals second_step = {-1, -1, -1, -1, -1};
+  Integers of_polygons;  // how many nodes each element of the first block had, were it one of these
 
   void write(const std::filesystem::path& to) const {
     formats::NetcdfWriter file;
@@ -51,6 +52,10 @@ struct SmallExodus {
     file.add("eb_prop1", {"num_el_blk"}, blocks);
     file.add_texts("eb_names", {"num_el_blk", "len_name"}, names);
     file.add("connect1", {"one", "four_nodes"}, first, {{"elem_type", type}});
+    if (!of_polygons.empty()) {
+      file.dimension("num_polygons", of_polygons.size());
+      file.add("ebepecnt1", {"num_polygons"}, of_polygons);
+    }
     file.add("connect2", {"one", "four_nodes"}, second, {{"elem_type", "TET"}});
     file.add("connect3", {"one", "three"}, Integers{1, 2, 4}, {{"elem_type", "TRISHELL3"}});
     file.add("elem_num_map", {"num_elem"}, numbers);
@@ -236,6 +241,14 @@ TEST_CASE("a group of no points is not written to Exodus, where it would be a ta
   CHECK(std::any_of(lost.begin(), lost.end(), [](const std::string& note) {
     return note.find("the group 'nothing' of no points is not kept") != std::string::npos;
   }));
+}
+
+TEST_CASE("counts of polygons beside tets of Exodus do not say how many tets there are") {
+  const TempFolder folder;
+  SmallExodus small;
+  small.of_polygons = Integers(1000, 4);
+  small.write(folder / "a.e");
+  CHECK(read_mesh(folder / "a.e").tets.size() == 2);
 }
 
 TEST_CASE("variables of Exodus without a step are told, and the mesh is read") {
