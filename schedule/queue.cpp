@@ -37,7 +37,7 @@ bool takes_all(const Selection& selection) {
 
 std::vector<QueuedTet> queue_tets(PassScope& scope, const TetMesh& mesh, const Selection& selection,
                                   Date since) {
-  const SelectionTest test(mesh, selection, scope.values());
+  const SelectionTest test(mesh, selection, scope.values(), scope.measures());
   const Quality limit = test.limit();
   auto tets =
       collect<QueuedTet>(scope, mesh.tet_slots(),
@@ -62,7 +62,7 @@ std::vector<QueuedVertex> queue_vertices(PassScope& scope, const TetMesh& mesh,
   };
   std::vector<QueuedVertex> all;
   if (takes_all(selection)) {
-    const SelectionTest test(mesh, selection, scope.values());
+    const SelectionTest test(mesh, selection, scope.values(), scope.measures());
     all = collect<QueuedVertex>(
         scope, mesh.tet_slots(),
         [&](std::size_t begin, std::size_t end, std::vector<QueuedVertex>& out) {

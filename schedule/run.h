@@ -241,6 +241,8 @@ class PassScope {
   const QualityIndicators& indicators();
   /// See Run::set_values().
   const TetValues* values() const { return run_.values(); }
+  /// Those that selections may name besides measures of tetmend.
+  std::span<const Standard> measures() const { return run_.registry().measures(); }
   /// Attempts so far that were accepted.
   std::size_t accepted() const { return record_.accepted(); }
   /// That many items will be tried.

@@ -46,21 +46,32 @@ std::string Selection::describe() const {
 }
 
 SelectionTest::SelectionTest(const TetMesh& mesh, const Selection& selection,
-                             const TetValues* values)
+                             const TetValues* values, std::span<const Standard> measures)
     : mesh_(mesh),
       selection_(selection),
       plain_(selection.labels.empty() && !selection.box && !selection.value &&
              selection.since == 0) {
-  if (!selection.value) return;
-  const std::string& name = selection.value->name;
+  if (selection.value) find_value(values, measures);
+}
+
+void SelectionTest::find_value(const TetValues* values, std::span<const Standard> measures) {
+  const std::string& name = selection_.value->name;
   if (values != nullptr) named_ = values->find(name);
   if (named_) return;
+  for (const Standard& measure : measures) {
+    if (measure.measure_name() == name) own_ = &measure;
+  }
+  if (own_ != nullptr) return;
   try {
     measure_ = &find_quality_measure(name);
   } catch (const Error& error) {
+    std::string text = error.what();
+    std::vector<std::string_view> own;
+    for (const Standard& measure : measures) own.push_back(measure.measure_name());
+    if (!own.empty()) text += fmt::format("; measures of the program: {}", fmt::join(own, ", "));
     const auto arrays = values != nullptr ? values->names() : std::vector<std::string>();
-    if (arrays.empty()) throw;
-    throw Error(fmt::format("{}; arrays of the tets: {}", error.what(), fmt::join(arrays, ", ")));
+    if (!arrays.empty()) text += fmt::format("; arrays of the tets: {}", fmt::join(arrays, ", "));
+    throw Error(text);
   }
 }
 
@@ -99,8 +110,12 @@ std::size_t SelectionTest::take(std::size_t candidates, std::size_t below) const
 double SelectionTest::value_of(TetHandle t) const {
   if (named_) return named_(mesh_, t);
   const TetVertices& v = mesh_.vertices(t);
-  return measure_->evaluate(mesh_.point(v[0]), mesh_.point(v[1]), mesh_.point(v[2]),
-                            mesh_.point(v[3]));
+  const Point& a = mesh_.point(v[0]);
+  const Point& b = mesh_.point(v[1]);
+  const Point& c = mesh_.point(v[2]);
+  const Point& d = mesh_.point(v[3]);
+  if (own_ == nullptr) return measure_->evaluate(a, b, c, d);
+  return own_->quality(a, b, c, d) * own_->own()->good;
 }
 
 }  // namespace tetmend

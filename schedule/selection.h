@@ -7,6 +7,7 @@
 #include <functional>
 #include <limits>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -38,8 +39,8 @@ class TetValues {
   virtual std::vector<std::string> names() const = 0;
 };
 
-/// Tets of a value from low to high: that of the TetValues of a run, or the quality measure, of that
-/// name.
+/// Tets of a value from low to high: that of the TetValues of a run, of a measure that was added to its
+/// registry, or of a quality measure of tetmend, of that name.
 struct ValueRange {
   std::string name;
   double low = -std::numeric_limits<double>::infinity();
@@ -73,8 +74,10 @@ struct Selection {
 class SelectionTest {
  public:
   /// @param values null: there are none
+  /// @param measures that were added; must outlive it
   /// @throws Error when neither a value nor a measure has the name, with the valid ones.
-  SelectionTest(const TetMesh& mesh, const Selection& selection, const TetValues* values = nullptr);
+  SelectionTest(const TetMesh& mesh, const Selection& selection, const TetValues* values = nullptr,
+                std::span<const Standard> measures = {});
 
   /// Tets of this quality or higher are out of the question.
   Quality limit() const;
@@ -85,6 +88,7 @@ class SelectionTest {
   std::size_t take(std::size_t candidates, std::size_t below) const;
 
  private:
+  void find_value(const TetValues* values, std::span<const Standard> measures);
   double value_of(TetHandle t) const;
 
   const TetMesh& mesh_;
@@ -92,6 +96,7 @@ class SelectionTest {
   bool plain_;
   TetValues::Of named_;
   const QualityMeasure* measure_ = nullptr;
+  const Standard* own_ = nullptr;  // by a measure that was added
 };
 
 }  // namespace tetmend

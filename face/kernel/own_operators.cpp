@@ -8,6 +8,7 @@
 
 #include "face/kernel/operator_tools.h"
 #include "kernel/workspace.h"
+#include "ops/registry.h"
 
 namespace tetmend::kernel {
 
@@ -35,6 +36,10 @@ EditResult Proposal::make(Transaction& edit) const {
 
 void Operators::add(std::string_view name, std::string_view help, TargetKind target, Judge judge,
                     std::function<Verdict(const TetMesh&, Target, Proposal&)> propose) {
+  const Registry builtin = Registry::builtin();
+  for (const OperatorInfo* known : builtin.operators()) {
+    if (known->name == name) throw Error(fmt::format("operator '{}' is one of tetmend", name));
+  }
   const bool is_new = operators_
                           .try_emplace(std::string(name), Own{target, std::string(help),
                                                               std::move(judge), std::move(propose)})

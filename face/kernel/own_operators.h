@@ -74,7 +74,7 @@ class TETMEND_API Judge {
 ///                 [](const TetMesh& look, TetEdge e, Proposal& out) -> Verdict { ... });
 class TETMEND_API Operators {
  public:
-  /// @throws Error if there is one of that name
+  /// @throws Error if there is one of that name, or tetmend has
   template <class Function>
   requires std::invocable<Function, const TetMesh&, TetHandle, Proposal&>
   void add(std::string_view name, std::string_view help, Function propose,

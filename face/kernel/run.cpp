@@ -99,7 +99,8 @@ class ValuesOfProperties final : public TetValues {
 };
 
 PassDone told_of(const PassRecord& record) {
-  return {record.name, record.attempts(), record.accepted(), record.seconds, record.after};
+  return {record.name,    record.attempts(), record.accepted(),
+          record.seconds, record.after,      record.verdicts};
 }
 
 }  // namespace
@@ -176,6 +177,7 @@ std::vector<PassDone> Run::make(const Pass& pass) {
   run.set_cancel_flag(in.options.cancel);
   const std::size_t first = run.records.size();
   const auto leave = [&] {
+    mesh.is_at_work_ = false;
     run.set_trace(nullptr);
     run.set_values(nullptr);
     in.values_may_differ = values.were_asked();
@@ -188,6 +190,7 @@ std::vector<PassDone> Run::make(const Pass& pass) {
     in.is_over = run.cancelled();
   };
   keeper.start();
+  mesh.is_at_work_ = true;
   if (mesh.locks_ != nullptr) hold(mesh.mesh_, [&](VertexHandle v) { return mesh.has_lock(v); });
   try {
     const int threads = in.options.operators == nullptr ? in.options.threads : 1;

@@ -2,6 +2,7 @@
 // Passes over a program's mesh, and whole schedules.
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <cstddef>
 #include <filesystem>
@@ -24,6 +25,7 @@
 namespace tetmend::kernel {
 
 using tetmend::ApplyOptions;
+using tetmend::AttemptEvent;
 using tetmend::Composition;
 using tetmend::Goal;
 using tetmend::InsertPointsOptions;
@@ -44,6 +46,10 @@ struct TETMEND_API PassDone {
   std::size_t accepted = 0;
   double seconds = 0;
   QualityIndicators after;
+  std::array<std::size_t, kVerdictCount> verdicts{};  ///< attempts by Verdict
+
+  /// How many attempts ended so.
+  std::size_t ended(Verdict verdict) const { return verdicts[static_cast<std::size_t>(verdict)]; }
 };
 
 /// How a Run works.

@@ -192,7 +192,7 @@ TetMesh::TetMesh(const PointView& points, std::span<const std::array<std::uint32
     : TetMesh(mesh_of(points, tets, labels), layout) {}
 
 Mesh TetMesh::to_mesh() const {
-  check_closed("to_mesh()");
+  if (open_ != 0) refuse_open("to_mesh()");  // an observer may look
   MeshData data = mesh_.to_data();
   if (origin_->holds_more) {
     const Scale& scale = mesh_.scale();
@@ -232,11 +232,16 @@ void TetMesh::refuse_open(std::string_view what) {
       fmt::format("{} while a transaction is open: it ends with its scope, kept or not", what));
 }
 
+void TetMesh::refuse_at_work(std::string_view what) {
+  throw Error(fmt::format(
+      "{} while a pass works on the mesh: observers and operators look, and change nothing", what));
+}
+
 void TetMesh::refuse_unknown(std::string_view what, std::string_view kind, std::uint32_t number,
                              std::size_t slots) {
   throw Error(
       number == VertexHandle::kInvalid
-          ? fmt::format("{}: a handle of no {}", what, kind)
+          ? fmt::format("{}: a handle of no {}, as the corners of a deleted tet are", what, kind)
           : fmt::format("{}: no {} {}: the mesh has slots 0 to {}", what, kind, number, slots - 1));
 }
 

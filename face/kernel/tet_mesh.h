@@ -82,8 +82,9 @@ struct OperatorTools;
 ///
 /// Walks return values and change nothing: many threads may call const members at the same time.
 /// Transactions, and all else that changes the mesh, belong to one thread. Lengths are those of the
-/// Mesh. Functions that take handles, but for vertices(), point(), points(), twin(), label() and
-/// quality(), throw Error for one that the mesh never had; walks of a deleted one are empty.
+/// Mesh. Functions that take handles, but for vertices(), point(), points(), twin(), twins(), label() and
+/// quality(), throw Error for one that the mesh never had; walks of a deleted one are empty. Those few
+/// cost one load, and have live handles as a precondition.
 class TETMEND_API TetMesh {
  public:
   /// @throws Error, with the tet, when the topology is broken; see improve().
@@ -96,7 +97,7 @@ class TETMEND_API TetMesh {
       : TetMesh(points, tets, labels, kLayout) {}
   /// With all properties. @throws Error while a transaction of `other` is open.
   TetMesh(const TetMesh& other);
-  /// Precondition of both: no transaction is open.
+  /// Precondition of both, and of the destructor: no transaction is open.
   TetMesh(TetMesh&& other) noexcept;
   TetMesh& operator=(TetMesh&& other) noexcept;
   TetMesh& operator=(const TetMesh& other);
@@ -161,7 +162,10 @@ class TETMEND_API TetMesh {
     return {HalfFace(t, 0), HalfFace(t, 1), HalfFace(t, 2), HalfFace(t, 3)};
   }
   /// The tets behind its faces: four, or fewer at the boundary.
-  Neighbours neighbours(TetHandle t) const { return Neighbours(mesh_.neighbours(t)); }
+  Neighbours neighbours(TetHandle t) const {
+    return is_known(t, "neighbours") && !mesh_.is_deleted(t) ? Neighbours(mesh_.neighbours(t))
+                                                             : Neighbours();
+  }
   /// The other side of a face, or the outside.
   HalfFace twin(HalfFace f) const { return mesh_.twin(f); }
   /// Of each of its faces. A loop over all tets takes half the time that neighbours() takes.
@@ -216,7 +220,8 @@ class TETMEND_API TetMesh {
                                     VertexHandle d) const;
 
   // --- properties --------------------------------------------------------------------------------
-  /// The property of the tets with that name, or a new one. It follows edits and their undo,
+  /// The property of the tets with that name, which keeps its initial value and rule, or a new one. It
+  /// follows edits and their undo,
   /// garbage collection and sorting. What a program writes itself, undo does not take back. Arrays of the
   /// Mesh with the same name are others, see tet_data().
   /// @param rule what the tets that an edit makes begin with: NewTets, or a function, see TetRule
@@ -305,7 +310,13 @@ class TETMEND_API TetMesh {
           std::span<const Label> labels, Layout layout);
   void check_closed(std::string_view what) const {
     if (open_ != 0) refuse_open(what);
+    check_idle(what);
   }
+  /// Within a pass, an observer or an operator of the program must not change the mesh.
+  void check_idle(std::string_view what) const {
+    if (is_at_work_) refuse_at_work(what);
+  }
+  [[noreturn]] static void refuse_at_work(std::string_view what);
   [[noreturn]] static void refuse_open(std::string_view what);
   [[noreturn]] static void refuse_unknown(std::string_view what, std::string_view kind,
                                           std::uint32_t number, std::size_t slots);
@@ -351,9 +362,10 @@ class TETMEND_API TetMesh {
 
   tetmend::TetMesh own_;  // empty in a look
   tetmend::TetMesh& mesh_ = own_;
-  std::size_t loose_ = 0;  // points of no tet
-  unsigned open_ = 0;      // transactions
-  std::size_t stamp_ = 0;  // raised by whatever may use free slots, or move handles
+  std::size_t loose_ = 0;    // points of no tet
+  unsigned open_ = 0;        // transactions
+  bool is_at_work_ = false;  // a pass
+  std::size_t stamp_ = 0;    // raised by whatever may use free slots, or move handles
   std::unique_ptr<Workspace> workspace_;
   std::unique_ptr<PropertyKeeper> keeper_;
   const ArrayOf<bool>* locks_ = nullptr;  // in the keeper

@@ -19,7 +19,9 @@ constexpr VertexHandle kNewVertex;
 }  // namespace
 
 Transaction::Transaction(TetMesh& mesh)
-    : mesh_(mesh), inner_(mesh.mesh_, *mesh.workspace_), depth_(++mesh.open_) {
+    : mesh_((mesh.check_idle("an edit"), mesh)),
+      inner_(mesh.mesh_, *mesh.workspace_),
+      depth_(++mesh.open_) {
   ++mesh.stamp_;
 }
 

@@ -29,6 +29,8 @@ using tetmend::Star;
 /// The tets behind the faces of one: four, or fewer at the boundary.
 class Neighbours {
  public:
+  /// None.
+  Neighbours() = default;
   explicit Neighbours(const std::array<HalfFace, 4>& twins) : twins_(twins) {}
 
   class Iterator {
@@ -70,12 +72,14 @@ class Neighbours {
   std::array<HalfFace, 4> twins_;
 };
 
-/// Lists for all vertices at once: rows[v] is that of a vertex, empty for one of no tet.
+/// Lists for all vertices at once: rows[v] is that of a vertex, empty for one of no tet or one that the
+/// mesh did not have yet.
 template <class T>
 struct Rows {
   std::vector<std::size_t> begin;  ///< by slot of a vertex, and one more
   std::vector<T> values;
   std::span<const T> operator[](VertexHandle v) const {
+    if (v.index() + 1 >= begin.size()) return {};
     return {values.data() + begin[v.index()], begin[v.index() + 1] - begin[v.index()]};
   }
 };

@@ -227,6 +227,82 @@ TEST_CASE("passes and scripts select tets by a property, with the values of toda
         }).ends_with("arrays of the tets: mark"));
 }
 
+TEST_CASE("passes and scripts select tets by a measure of the program") {
+  TetMesh mesh{Mesh(shaken_cube(6, 1.0))};
+  Operators own;
+  const Standard standard = own.add_measure(
+      {"twice", 0.5, [](const Point& a, const Point& b, const Point& c, const Point& d) {
+         return 2 * minimum_sine(a, b, c, d);
+       }});
+  std::size_t count = 0;
+  for (TetHandle t : mesh.tets()) {
+    const auto [a, b, c, d] = mesh.points(t);
+    const double twice = 2 * minimum_sine(a, b, c, d);
+    if (twice >= 0.2 && twice <= 0.6) ++count;
+  }
+  Run run(mesh, {.operators = &own});
+  const auto visits = [&](const std::string& name, double low, double high) {
+    struct Counter final : TraceSink {
+      void attempt_begins(const AttemptEvent&) override {}
+      void attempt_ends(Verdict, std::span<const Quality>, std::span<const Quality>) override {}
+      void visit_begins(const TetVertices&, Quality) override { ++visits; }
+      std::size_t visits = 0;
+    } counter;
+    TetMesh copy(mesh);
+    Run(copy, {.operators = &own, .observer = &counter})
+        .apply({.what = one("flip_2_3"),
+                .on = {.below = Selection::kAll, .value = ValueRange{name, low, high}}});
+    return counter.visits;
+  };
+  REQUIRE(count > 10);
+  CHECK(visits("twice", 0.2, 0.6) > 10);
+  CHECK(visits("twice", 0.2, 0.6) == visits("min_sine", 0.1, 0.3));
+  CHECK(visits("twice", 0.2, 0.6) < visits("twice", 0, 2));
+  CHECK(run.schedule("apply('flip_2_3', {on = {property = {'twice', high = 0.6}}})")
+            .front()
+            .attempts > 0);
+  CHECK(message_of([&] {
+          run.apply({.what = one("flip_2_3"), .on = {.value = ValueRange{.name = "thrice"}}});
+        }).ends_with("measures of the program: twice"));
+}
+
+TEST_CASE("an observer sees the mesh of each pass, and must not change it") {
+  TetMesh mesh{Mesh(shaken_cube(4, 1.0))};
+  struct Meddler final : TraceSink {
+    explicit Meddler(TetMesh& of_program) : mesh(of_program) {}
+    void attempt_begins(const AttemptEvent&) override {
+      if (messages.empty()) {
+        messages.push_back(message_of([&] { Transaction edit(mesh); }));
+        messages.push_back(
+            message_of([&] { attempt(mesh, "edge_removal", TetEdge(*mesh.tets().begin(), 0)); }));
+        messages.push_back(message_of([&] { mesh.collect_garbage(); }));
+      }
+    }
+    void attempt_ends(Verdict verdict, std::span<const Quality>,
+                      std::span<const Quality>) override {
+      ++verdicts[static_cast<std::size_t>(verdict)];
+    }
+    void pass_ends(const QualityIndicators&) override {
+      tets.push_back(mesh.to_mesh().tet_count());
+    }
+    TetMesh& mesh;
+    std::vector<std::string> messages;
+    std::vector<std::size_t> tets;
+    std::array<std::size_t, kVerdictCount> verdicts{};
+  } meddler(mesh);
+  Run run(mesh, {.observer = &meddler});
+  const PassDone done = run.apply("edge_removal");
+  const std::string end =
+      " while a pass works on the mesh: observers and operators look, and change nothing";
+  CHECK(meddler.messages ==
+        std::vector<std::string>{"an edit" + end, "an edit" + end, "collect_garbage()" + end});
+  CHECK(meddler.tets == std::vector<std::size_t>{mesh.tet_count()});
+  CHECK(done.verdicts == meddler.verdicts);
+  CHECK(done.ended(Verdict::accepted) == done.accepted);
+  CHECK(done.ended(Verdict::no_improvement) > 0);
+  Transaction edit(mesh);  // after the pass
+}
+
 TEST_CASE("a run ends with its attempts, and another goal is worked towards when it is set") {
   TetMesh mesh{Mesh(shaken_cube(8, 1.0))};
   Run few(mesh, {.most_attempts = 100});

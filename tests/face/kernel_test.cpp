@@ -627,7 +627,10 @@ TEST_CASE("mistakes are refused with words") {
   const auto all = [&] { return std::vector<TetHandle>{e.tet()}; };
   Transaction edit(mesh);
   CHECK(message_of([&] { edit.replace(all(), {TetVertices()}); }) ==
-        "replace: a handle of no vertex");
+        "replace: a handle of no vertex, as the corners of a deleted tet are");
+  CHECK(message_of([&] {
+          mesh.neighbours(TetHandle(4000000));
+        }).starts_with("neighbours: no tet 4000000: "));
   CHECK(message_of([&] { mesh.star(VertexHandle(100000)); }) ==
         "star: no vertex 100000: the mesh has slots 0 to " +
             std::to_string(mesh.vertex_slots() - 1));
@@ -681,6 +684,7 @@ TEST_CASE("a handle of something deleted is refused, and walks of it are empty")
   }
   REQUIRE(free.is_valid());
   CHECK(mesh.ring(TetEdge(free, 0)).tets.empty());
+  CHECK(mesh.neighbours(free).size() == 0);
   CHECK(attempt(mesh, "edge_removal", TetEdge(free, 0)).verdict == Verdict::not_applicable);
   Transaction edit(mesh);
   CHECK(edit.flip_3_2(TetEdge(free, 1)) == EditResult::not_closed);
@@ -691,6 +695,19 @@ TEST_CASE("a handle of something deleted is refused, and walks of it are empty")
   TetVertices with_gone = mesh.vertices(live);
   with_gone[0] = gone;
   CHECK(edit.replace(std::vector<TetHandle>{live}, {with_gone}) == EditResult::not_closed);
+}
+
+TEST_CASE("rows of all vertices have none for a vertex that was added later") {
+  TetMesh mesh = ball();
+  const Rows<TetHandle> stars = mesh.stars();
+  const TetHandle t = *mesh.tets().begin();
+  Transaction edit(mesh);
+  Point centre = Point::Zero();
+  for (const Point& p : mesh.points(t)) centre += p / 4;
+  const VertexHandle v = edit.split(t, centre);
+  REQUIRE(v.is_valid());
+  CHECK(stars[v].empty());
+  CHECK(!mesh.star(v).empty());
 }
 
 TEST_CASE("a loop over edges that edits sees each edge that is still there once") {
@@ -802,6 +819,10 @@ TEST_CASE("an operator of a program does what that of tetmend does, under the sa
           own.add("my_flip", "again",
                   [](const TetMesh&, TetHandle, Proposal&) { return Verdict::not_applicable; });
         }) == "operator 'my_flip' is registered twice");
+  CHECK(message_of([&] {
+          own.add("smoothing", "another",
+                  [](const TetMesh&, TetHandle, Proposal&) { return Verdict::not_applicable; });
+        }) == "operator 'smoothing' is one of tetmend");
 }
 
 TEST_CASE("an operator of a program is judged by its own criterion, and a wrong one is refused") {

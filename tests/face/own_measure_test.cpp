@@ -262,13 +262,4 @@ TEST_CASE("operators of a program are tried by improve() and by a session") {
   CHECK(session.tet_count() == mesh.tet_count());
 }
 
-TEST_CASE("an operator of a program with the name of one of tetmend is refused") {
-  Operators own;
-  own.add("smoothing", "another",
-          [](const TetMesh&, VertexHandle, Proposal&) { return Verdict::not_applicable; });
-  Mesh mesh = ball_mesh();
-  CHECK(message_of([&] { tetmend::improve(mesh, {.operators = &own}); }).find("twice") !=
-        std::string::npos);
-}
-
 }  // namespace tetmend::kernel

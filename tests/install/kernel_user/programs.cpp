@@ -7,6 +7,8 @@
 #include <cstdio>
 #include <cstdlib>
 #include <deque>
+#include <map>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -221,6 +223,18 @@ QualityIndicators improve_by_rounds(TetMesh& mesh) {
   return now;
 }
 
+struct Refusals final : TraceSink {
+  std::map<std::string, std::map<Verdict, std::size_t>> of;
+  std::vector<std::string> open;  // attempts lie in each other
+  void attempt_begins(const AttemptEvent& event) override {
+    open.emplace_back(event.operator_name);
+  }
+  void attempt_ends(Verdict verdict, std::span<const Quality>, std::span<const Quality>) override {
+    ++of[open.back()][verdict];
+    open.pop_back();
+  }
+};
+
 /// Prints and ends the program when something of the page is not so.
 void expect(bool holds, const char* what) {
   if (holds) return;
@@ -253,6 +267,10 @@ int main(int argc, char** argv) {
   std::printf("%zu bad tets after rounds\n", left);
   expect(better.check().empty(), "the mesh is sound after passes");
   expect(left <= Run(mesh).indicators().n_bad, "passes leave no more bad tets");
+  Refusals told;
+  TetMesh looked_at(mesh);
+  const PassDone done = Run(looked_at, {.observer = &told}).apply("edge_removal", {.worst = 50});
+  expect(done.accepted == told.of["edge_removal"][Verdict::accepted], "an observer is told of all");
   const Operators own = own_operators();
   std::size_t accepted = 0;
   for (TetEdge e : mesh.edges()) accepted += attempt(mesh, own, "my_flip", e).accepted() ? 1 : 0;
