@@ -383,13 +383,18 @@ class Pages(unittest.TestCase):
         window = browser.Browser(1920, 1080)
         try:
             window.command("Emulation.setDeviceMetricsOverride", width=1920, height=1080, deviceScaleFactor=1, mobile=False)
-            window.open((WORK / "lessons" / "4-tables.html").as_uri() + "#step=2")
             scrolling = """const scrolling = [...document.querySelectorAll("main *")].filter((e) => e.getClientRects().length && e.scrollHeight > e.clientHeight + 1
                 && getComputedStyle(e).overflowY === "auto");"""
-            names, unreached = window.run(scrolling + """const isReached = (e) => e.tabIndex >= 0 || e.querySelector("a, button, [tabindex]");
-                return [scrolling.map((e) => e.className), scrolling.filter((e) => !isReached(e)).map((e) => e.className)]""")
-            self.assertIn("card tables", names)
-            self.assertEqual(unreached, [])
+            for name, position, height, what in (("2-two-shells", 2, 937, "card code"), ("5-reconnection", 1, 937, "card code"),
+                                                 ("4-tables", 2, 1080, "card tables")):
+                with self.subTest(page=name):
+                    window.command("Emulation.setDeviceMetricsOverride", width=1920, height=height, deviceScaleFactor=1, mobile=False)
+                    window.open("about:blank")
+                    window.open((WORK / "lessons" / f"{name}.html").as_uri() + f"#step={position}")
+                    names, unreached = window.run(scrolling + """const isReached = (e) => e.tabIndex >= 0 || e.querySelector("a, button, [tabindex]");
+                        return [scrolling.map((e) => e.className), scrolling.filter((e) => !isReached(e)).map((e) => e.className)]""")
+                    self.assertIn(what, names)
+                    self.assertEqual(unreached, [])
             # There arrows are for what scrolls, not for the next step.
             window.run("document.getElementById('tables-card').dispatchEvent(new KeyboardEvent('keydown', {key: 'ArrowDown', bubbles: true}))")
             self.assertEqual(window.run("return location.hash"), "#step=2")

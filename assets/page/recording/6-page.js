@@ -101,9 +101,9 @@ let inView = {call: undefined, ball: null};
 
 // What does not fit into its card is reached by keys, too.
 function letKeysScroll() {
-  for (const region of [byId("tables-card"), ...document.querySelectorAll(".scrolls")]) {
-    const isCut = region.scrollHeight > region.clientHeight + 1;
-    if (isCut && !region.querySelector("a, button")) region.tabIndex = 0;
+  for (const region of document.querySelectorAll(".card, .scrolls")) {
+    const canScroll = getComputedStyle(region).overflowY === "auto" && overflows(region);
+    if (canScroll && !region.querySelector("a, button")) region.tabIndex = 0;
     else region.removeAttribute("tabindex");
   }
 }
@@ -312,7 +312,7 @@ document.addEventListener("keydown", (event) => {
   const isTyping = (event.target.matches("input[type=range]") && event.key.startsWith("Arrow")) || event.target.matches("input[type=text]");
   const isPressing = event.target.matches("button, input") && event.key === " ";
   if (isTyping || isPressing || event.ctrlKey || event.altKey || event.metaKey || byId("keys").open) return;
-  if (event.target.matches(".scrolls, .tables") && ["ArrowUp", "ArrowDown"].includes(event.key)) return;
+  if (event.target.matches(".card, .scrolls") && ["ArrowUp", "ArrowDown"].includes(event.key)) return;
   if (event.target === canvas && turnByKey(event, camera)) return redrawPicture();
   const found = KEYS.find(([keys]) => keys.includes(event.key));
   if (!found) return;
