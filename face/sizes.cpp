@@ -229,6 +229,21 @@ class LinearLengths {
     }
     return std::clamp(length, least, most);  // a place may lie beside the tet
   }
+  /// How steep they are at most, over the way; amply, for edges of tets are seldom as steep as the tets.
+  double steepest() const {
+    constexpr double kAmple = 1.5;
+    double steepest = 0;
+    for (const MeshData::Tet& tet : data_.tets) {
+      for (const auto& [i, j] : kEdgeVertices) {
+        const std::uint32_t v = tet.vertices[i];
+        const std::uint32_t w = tet.vertices[j];
+        const double way = (data_.points[v] - data_.points[w]).norm();
+        const double change = std::abs(lengths_[v] - lengths_[w]);
+        if (change > steepest * way) steepest = change / way;
+      }
+    }
+    return kAmple * steepest;
+  }
 
  private:
   static std::vector<std::uint32_t> all(const MeshData& data) {
@@ -277,6 +292,7 @@ class Background {
   Background& operator=(const Background&) = delete;
 
   double at(const Point& place) const { return lengths_.at(place); }
+  double steepest() const { return lengths_.steepest(); }
 
  private:
   static MeshData mesh_of(const Spec& spec) {
@@ -423,7 +439,7 @@ std::shared_ptr<const WantedLengths> Sizes::field_of_places(const Scale& scale) 
   const auto within = [this](double length) { return clamped(length); };
   const auto background = std::make_shared<const Background>(specs_[0], scale, within, rate());
   return std::make_shared<WantedLengths>(
-      [background](const Point& place) { return background->at(place); });
+      [background](const Point& place) { return background->at(place); }, background->steepest());
 }
 
 std::shared_ptr<const WantedLengths> Sizes::field(const MeshData& data, const TetMesh& mesh) const {
@@ -455,8 +471,8 @@ std::shared_ptr<const WantedLengths> Sizes::field(const MeshData& data, const Te
   }
   if (rate() > 0) grade(data, rate(), lengths);
   auto linear = std::make_shared<const LinearLengths>(data, std::move(lengths));
-  return std::make_shared<WantedLengths>(
-      [linear](const Point& place) { return linear->at(place); });
+  return std::make_shared<WantedLengths>([linear](const Point& place) { return linear->at(place); },
+                                         linear->steepest());
 }
 
 }  // namespace tetmend::face

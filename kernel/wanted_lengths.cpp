@@ -44,6 +44,10 @@ double WantedLengths::relative_length(const Point& a, const Point& b, double len
   const double by_ends = relative_length(length, at_a, at_b);
   if (!at_ || by_ends <= kMost) return by_ends;
   constexpr double kMuch = 1.5;  // far beyond what samples of a linear field are off by
+  // Where lengths fall from both ends as steeply as they may, the mean of 1 / wanted is -log(1 - u) / u of
+  // that at the shorter end, u = steepest length / (2 at the end): less than kMuch below that.
+  constexpr double kFlat = 1.16;
+  if (steepest_ * length <= kFlat * std::min(at_a, at_b)) return by_ends;
   const double between = length * sampled(a, b);
   return between > kMuch * by_ends ? between : by_ends;
 }

@@ -30,7 +30,10 @@ class TETMEND_API WantedLengths final : public SizeField {
   explicit WantedLengths(double everywhere) : everywhere_(everywhere) {}
   /// @param at gives a length above 0 at every place, the same whenever it is asked; several threads
   /// ask at once
-  explicit WantedLengths(Function at) : at_(std::move(at)) {}
+  /// @param steepest by how much lengths change at most, over the way: what lies between the ends of an edge
+  /// is looked at where it can matter
+  explicit WantedLengths(Function at, double steepest = std::numeric_limits<double>::infinity())
+      : at_(std::move(at)), steepest_(steepest) {}
 
   double length(const Point& p) const override;
   /// No more edges miss the range than before, and none by more: the worst by no more than the worst
@@ -63,6 +66,7 @@ class TETMEND_API WantedLengths final : public SizeField {
 
   double everywhere_ = 0;
   Function at_;  // none: everywhere_
+  double steepest_ = 0;
   mutable tbb::enumerable_thread_specific<std::vector<Asked>> asked_;
 };
 
