@@ -294,7 +294,7 @@ void Improvement::measure_before() {
 /// Where lengths are wanted, the last bad tets are not worth most of the time: `improve` may follow.
 ScheduleSettings Improvement::for_surface() const {
   if (!plan_.sizes.are_wanted()) return {};
-  return {{"max_rounds", "2"}};
+  return {{"max_rounds", "2"}, {"most_worst", "50"}};
 }
 
 /// The passes of the schedule, or so many of them, for so many seconds; 0: without a limit.

@@ -5,6 +5,8 @@ local max_rounds = parameter{"max_rounds", default = 12, low = 0, high = 10000,
                              help = "rounds of costly operators on the worst tets"}
 local max_failed = parameter{"max_failed", default = 3, low = 1, high = 1000,
                              help = "such rounds in sequence without progress that end them"}
+local most_worst = parameter{"most_worst", default = 200, low = 1, high = 100000,
+                             help = "of many bad tets, so many of the worst get costly operators"}
 
 local quick = {"recursive_shell_transformation", max_level = 2, order = "angle", most_edges = 1}
 local refill = {"polyhedron_reconnection", insert = true, remove = true, relax = true,
@@ -15,7 +17,7 @@ local start = quality()
 
 -- Where more are bad after the cheap rounds, what raises the worst at no price makes many mild ones.
 local few = 200
-local worst = {below = 1, worst = few}
+local worst = {below = 1, worst = most_worst}
 -- Where the cheap rounds leave more of those that there were, the surface holds them.
 local most_left = 0.9
 
@@ -33,6 +35,15 @@ local function move()
   return moved
 end
 
+-- Many attempts in vain cost more than they may still bring.
+local splits_fail = false
+local function split_surface()
+  if splits_fail then return 0 end
+  local accepted, tried = apply(split)
+  splits_fail = accepted == 0 and tried > 1000
+  return accepted
+end
+
 -- Returns how often the surface changed.
 local function plain_round()
   begin_round()
@@ -40,7 +51,7 @@ local function plain_round()
   local_reconnection{edges = quick}
   suppress_points{}
   smooth{}
-  return changed + apply(split) + flip() + move()
+  return changed + split_surface() + flip() + move()
 end
 
 -- Cheap: all bad tets, as long as that removes a twentieth of them.
