@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <charconv>
 #include <limits>
 #include <set>
 
@@ -348,6 +349,17 @@ std::string caption_of(const CallStudy& study, const PolygonView& view) {
                      shell.ring.size(), shell.floor);
 }
 
+/// How many tets may lie around an edge that was not searched; without a limit, any number.
+std::size_t most_degree(const TraceFile& file, const Call& call) {
+  constexpr std::string_view kName = "max_degree = ";
+  const std::string_view settings = file.name(call.settings);
+  const std::size_t at = settings.find(kName);
+  std::size_t most = std::numeric_limits<std::size_t>::max();
+  if (call.verdict != Verdict::not_applicable || at == settings.npos) return most;
+  std::from_chars(settings.data() + at + kName.size(), settings.data() + settings.size(), most);
+  return most;
+}
+
 }  // namespace
 
 Quality worst_of(const std::vector<LocalTet>& tets) {
@@ -386,6 +398,11 @@ CallStudy study_call(const TraceFile& file, Replay& replay, std::uint32_t call) 
 std::string explain_end(const TraceFile& file, const CallStudy& study) {
   const Call& call = file.calls()[study.call];
   std::string text(file.reason(call));
+  if (const auto most = most_degree(file, call);
+      study.picture && study.picture->ring.size() > most) {
+    text = fmt::format("{} tets lie around the edge, more than max_degree = {}",
+                       study.picture->ring.size(), most);
+  }
   if (text.empty()) return text;
   text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
   text += '.';

@@ -72,7 +72,7 @@ struct PolygonView {
   const FlatCovering* covering = nullptr;  ///< that was made or tried; only of `made`
   std::string caption;
 };
-/// `refused`: the call has ended, and not well. Precondition: the study has a picture.
+/// `refused`: the call has searched in vain, and has ended. Precondition: the study has a picture.
 PolygonView polygon_at(const CallStudy& study, std::uint64_t position, bool refused);
 
 /// Why the call ended as it did, in sentences with the numbers of its shell.

@@ -196,6 +196,7 @@ EventKind last_kind(const TraceFile& file, std::uint64_t position) {
 
 unsigned line_of_end(const Call& call) {
   if (call.accepted()) return 8;
+  if (!call.has_searched()) return 1;
   return call.verdict == Verdict::no_improvement && !call.candidate_found ? 4 : 7;
 }
 

@@ -451,7 +451,7 @@ class Recording {
     for (const LaterShell& later : study.later) {
       if (later.from < call.events.end) add(later.from, false);
     }
-    add(call.events.end, !call.accepted());
+    add(call.events.end, !call.accepted() && call.has_searched());
     ring["stages"] = stages;
     return ring;
   }

@@ -361,6 +361,12 @@ std::string_view Call::verdict_text() const {
   return undone ? "undone with a caller" : to_string(*verdict);
 }
 
+bool Call::has_searched() const {
+  if (candidate_found || undone) return true;
+  return verdict && *verdict != Verdict::not_applicable && *verdict != Verdict::constrained &&
+         *verdict != Verdict::deferred;
+}
+
 std::string Call::verdict_in_words() const {
   if (!undone || undone_with == kNoCall) return std::string(verdict_text());
   return fmt::format("undone with call {}", undone_with);

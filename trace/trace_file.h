@@ -66,6 +66,8 @@ struct Call {
   std::string_view verdict_text() const;
   /// The same, and with which call: "undone with call 17".
   std::string verdict_in_words() const;
+  /// It has looked for something better: its target is there, and one that it works on.
+  bool has_searched() const;
   /// Something was compared: worst_before and worst_after are known.
   bool has_qualities() const { return worst_before != 0 || worst_after != 0; }
   /// How much quality the worst tet of a refused call lacked; negative where that was good enough

@@ -488,6 +488,7 @@ void Document::run_live(LiveRun::From from) {
   followed_call_ = 0;
   before_ = from == LiveRun::From::file ? live.input()->statistics : now;
   camera_before_run_ = camera_of_run_ = view.camera;
+  is_at_calls_ = false;
 }
 
 void Document::debug_live() {
@@ -519,6 +520,7 @@ bool Document::show_pause(const LiveProgress& run) {
   } catch (const Error&) {
     return false;  // it has no memory for that, or goes on already
   }
+  is_at_calls_ = true;
   return true;
 }
 
@@ -537,7 +539,7 @@ void Document::follow_live() {
   const bool is_over = now == LiveState::finished || now == LiveState::stopped;
   if ((is_over || now == LiveState::failed) && debugger_ == nullptr) data_ = live.whole_data();
   // Back from the last hole, unless the user has gone elsewhere.
-  if (is_over && camera_before_run_ && view.camera == camera_of_run_) {
+  if (is_over && camera_before_run_ && (is_at_calls_ || view.camera == camera_of_run_)) {
     view.camera = *camera_before_run_;
   }
   if (now == LiveState::paused) camera_of_run_ = view.camera;

@@ -348,6 +348,8 @@ class Document {
   bool debugs_live_ = false;
   std::optional<Camera> camera_before_run_;
   Camera camera_of_run_;  // as the last call or pause of it has put it
+  bool is_at_calls_ =
+      false;  // pauses of it were debugged, which moves the camera from call to call
 
   std::unique_ptr<Shown> aside_;  // of the trial
   std::unique_ptr<Trial> trial_;

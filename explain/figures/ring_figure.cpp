@@ -59,7 +59,8 @@ Drawing draw_ring(const TraceFile& file, const CallStudy& study) {
                             study.call));
   }
   const ShellPicture& shell = *study.picture;
-  const bool refused = !file.calls()[study.call].accepted();
+  const Call& call = file.calls()[study.call];
+  const bool refused = !call.accepted() && call.has_searched();
   std::vector<PolygonView> stages = {polygon_at(study, 0, false)};
   if (study.covering) stages.push_back(polygon_at(study, study.first_edit, false));
   PolygonView last = polygon_at(study, file.event_count(), refused);

@@ -7,6 +7,8 @@
 #include <fmt/format.h>
 
 #include "explain/call_facts.h"
+#include "explain/paper_lines.h"
+#include "explain/stepper.h"
 #include "kernel/geometry.h"
 #include "tests/support/example_traces.h"
 
@@ -210,4 +212,29 @@ TEST_CASE("a refusal is explained with the numbers of its shell") {
   }
   CHECK(told);
   CHECK(undone);
+}
+
+TEST_CASE("an edge with too many tets for its removal is told as that, and nothing was searched") {
+  const test::TempFolder folder;
+  TetMesh mesh(test::delaunay_ball(120, 3));
+  test::record(mesh, folder / "a.trace", {}, {},
+               Schedule("few", "apply({'edge_removal', max_degree = 4}, {on = {below = 100}})"));
+  const TraceFile file(folder / "a.trace");
+  Replay replay(file);
+  std::size_t told = 0;
+  for (std::uint32_t k = 0; k < file.calls().size(); ++k) {
+    const Call& call = file.calls()[k];
+    if (call.verdict != Verdict::not_applicable) continue;
+    const CallStudy study = study_call(file, replay, k);
+    if (!study.picture) continue;
+    CHECK(explain_end(file, study) ==
+          fmt::format("{} tets lie around the edge, more than max_degree = 4.",
+                      study.picture->ring.size()));
+    CHECK_FALSE(call.has_searched());
+    CHECK(polygon_at(study, call.events.end, false).stage == PolygonStage::before);
+    const auto stack = call_stack(file, call.events.end);
+    CHECK(code_place(file, stack, stack.size() - 1, call.events.end).line == 1);
+    ++told;
+  }
+  CHECK(told > 10);
 }

@@ -144,7 +144,8 @@ json trace_state_of(Document& document) {
   const auto removal = removal_of(debugger.file(), study->call);
   if (removal) result["removal"] = to_text(*removal);
   result["shell_of_caller"] = vertices_of(document.mesh(), document.shell_of_caller());
-  result["reason"] = explain_end(debugger.file(), *study);
+  const bool has_ended = debugger.position() >= debugger.file().calls()[study->call].events.end;
+  result["reason"] = has_ended ? explain_end(debugger.file(), *study) : std::string();
   if (!study->picture) return result;
   const PolygonView polygon = debugger.polygon();
   if (polygon.shell->ring.size() >= 3) result["caption"] = polygon.caption;

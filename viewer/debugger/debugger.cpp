@@ -105,7 +105,8 @@ const CallStudy* Debugger::study() {
 PolygonView Debugger::polygon() {
   const CallStudy& here = *study();
   const Call& made = file_.calls()[here.call];
-  return polygon_at(here, position(), !made.accepted() && position() >= made.events.end);
+  const bool is_in_vain = !made.accepted() && made.has_searched();
+  return polygon_at(here, position(), is_in_vain && position() >= made.events.end);
 }
 
 HistorySubject Debugger::subject_of(std::string_view text) {

@@ -17,8 +17,7 @@ bool entry(const std::string& text, bool is_possible = true) {
 
 /// The operators for a target of so many vertices; a click tries one there.
 void offer_trials(Session& session, const std::vector<VertexHandle>& part) {
-  if (!ImGui::BeginMenu("Try ...")) return;
-  close_by_escape();
+  if (!begin_submenu("Try ...")) return;
   for (const OperatorInfo* info : session.document.live.registry().operators()) {
     if (vertices_of(info->target) != part.size()) continue;
     const std::string name(info->name);

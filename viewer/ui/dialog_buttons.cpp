@@ -13,6 +13,10 @@ void close_by_escape() {
   if (is_escape()) ImGui::CloseCurrentPopup();
 }
 
+bool begin_submenu(const char* title, bool is_possible) {
+  return !is_escape() && ImGui::BeginMenu(title, is_possible);
+}
+
 Answer dialog_buttons(const char* accept, bool is_entered, const std::string& trouble) {
   const bool is_accepted = ImGui::Button(accept) || is_entered;
   ImGui::SameLine();

@@ -11,6 +11,9 @@ namespace tetmend::viewer::ui {
 void close_by_escape();
 /// The key has just been pressed.
 bool is_escape();
+/// A menu in a menu or popup, which close_by_escape() closes. As ImGui::BeginMenu(); not while that closes it:
+/// under the mouse it would open again, without what it belongs to, and keep all keys.
+bool begin_submenu(const char* title, bool is_possible = true);
 
 enum class Answer : std::uint8_t { none, accepted, cancelled };
 

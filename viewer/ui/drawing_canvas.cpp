@@ -122,6 +122,16 @@ Colour colour_of(ImGuiCol part) {
   return {byte(colour.x), byte(colour.y), byte(colour.z), byte(colour.w)};
 }
 
+void coloured_text(const Colour& colour, const std::string& text) {
+  constexpr float kLighter = 0.4F;
+  constexpr int kLight = 128;
+  ImVec4 shown = ImGui::ColorConvertU32ToFloat4(to_imgui(colour));
+  if (colour_of(ImGuiCol_Text).green > kLight) {
+    for (float* part : {&shown.x, &shown.y, &shown.z}) *part += kLighter * (1 - *part);
+  }
+  ImGui::TextColored(shown, "%s", text.c_str());
+}
+
 void paint(const figure::Drawing& drawing, ImDrawList& list) {
   const CanvasPainter painter(list);
   for (const figure::Shape& shape : drawing.shapes) std::visit(painter, shape);

@@ -19,6 +19,8 @@ inline ImU32 to_imgui(const Colour& c) {
 }
 /// What ImGui's style has for a part.
 Colour colour_of(ImGuiCol part);
+/// Text in the colour of a curve, lighter where the background is dark: so that it can be read.
+void coloured_text(const Colour& colour, const std::string& text);
 
 /// In pixels of the window.
 void paint(const figure::Drawing& drawing, ImDrawList& list);

@@ -79,8 +79,7 @@ Choice lessons_menu() {
 
 Choice recent_menu(const Document& document) {
   Choice choice;
-  if (!ImGui::BeginMenu("Opened lately", !document.recent.empty())) return choice;
-  close_by_escape();
+  if (!begin_submenu("Opened lately", !document.recent.empty())) return choice;
   for (const std::string& file : document.recent) {
     if (ImGui::MenuItem(file.c_str())) choice = {&find_command("open"), {file}};
   }

@@ -29,6 +29,15 @@ constexpr std::array<const char*, 15> kExamples = {"accepted for good",
                                                    "verdict depth_spent",
                                                    "near 0 0 0 1"};
 
+bool is_condition(const std::string& text) {
+  try {
+    parse_condition(text);
+  } catch (const Error&) {
+    return false;
+  }
+  return true;
+}
+
 void show_run_to(Session& session) {
   std::string& text = session.document.debugger()->typed_condition;
   ImGui::SetNextItemWidth(-2 * ImGui::GetFontSize());
@@ -36,6 +45,8 @@ void show_run_to(Session& session) {
                                ImGuiInputTextFlags_EnterReturnsTrue)) {
     const char* command = ImGui::GetIO().KeyShift ? "run_to" : "list_calls";
     run_from_window(find_command(command), session, {text});
+    if (!is_condition(text))
+      ImGui::SetKeyboardFocusHere(-1);  // to be put right, not to act as keys
   }
   if (ImGui::IsItemHovered()) ImGui::SetTooltip("Enter lists, Shift+Enter runs to the next");
   ImGui::SameLine();

@@ -72,10 +72,6 @@ figure::Stroke curve_of(const std::vector<BadAtTime>& over, const Plot& plot,
   return curve;
 }
 
-void show_key(const Colour& colour, const std::string& text) {
-  ImGui::TextColored(ImGui::ColorConvertU32ToFloat4(to_imgui(colour)), "%s", text.c_str());
-}
-
 std::string fate(const char* which, const std::vector<BadAtTime>& over) {
   return fmt::format("{} {} in {:.2f} s", which, grouped(over.back().n_bad), over.back().seconds);
 }
@@ -86,9 +82,9 @@ void show_time(Session& session, const RunComparison& both) {
   const Debugger& debugger = *session.document.debugger();
   ImGui::TextUnformatted("bad tets:");
   ImGui::SameLine();
-  show_key(kBadColour, fate("here", both.over_a));
+  coloured_text(kBadColour, fate("here", both.over_a));
   ImGui::SameLine();
-  show_key(kThereColour, fate("there", both.over_b));
+  coloured_text(kThereColour, fate("there", both.over_b));
   Plot plot{ImGui::GetCursorScreenPos(),
             {ImGui::GetContentRegionAvail().x, kLines * ImGui::GetTextLineHeight()}};
   plot.seconds = std::max({both.over_a.back().seconds, both.over_b.back().seconds, 1e-9});

@@ -83,7 +83,8 @@ void draw_curves(const Band& band, const Timeline& timeline) {
     best = std::max(best, s.q_worst);
   }
   // Room above for the names of the passes.
-  constexpr double kUsed = 0.66;
+  const double names = ImGui::GetTextLineHeight() + 3;
+  const double used = std::max(0.4, 1 - names / std::max(1.0, double{band.size.y}));
   std::vector<ImVec2> bad;
   std::vector<ImVec2> worst;
   // The number holds from one event on to the next: steps, one at a pixel at most.
@@ -94,8 +95,8 @@ void draw_curves(const Band& band, const Timeline& timeline) {
   for (float x = 0; x <= band.size.x; ++x) {
     const auto& s = timeline.at(band.position(band.corner.x + x));
     const float left = band.corner.x + x;
-    step(bad, left, band.y(kUsed * static_cast<double>(s.n_bad) / static_cast<double>(most)));
-    step(worst, left, band.y(kUsed * std::max(s.q_worst, 0.0) / best));
+    step(bad, left, band.y(used * static_cast<double>(s.n_bad) / static_cast<double>(most)));
+    step(worst, left, band.y(used * std::max(s.q_worst, 0.0) / best));
   }
   const float width = ImGui::GetFontSize() / 9;
   list->AddPolyline(bad.data(), static_cast<int>(bad.size()), to_imgui(kBadColour), 0, width);
@@ -294,9 +295,9 @@ void draw_legend(const Debugger& debugger, const CallWindow& window) {
                        ImGui::GetContentRegionAvail().x;
   ImGui::TextUnformatted((is_wide ? event + all : event).c_str());
   ImGui::SameLine();
-  ImGui::TextColored(ImGui::ColorConvertU32ToFloat4(to_imgui(kBadColour)), "%s", bad.c_str());
+  coloured_text(kBadColour, bad);
   ImGui::SameLine();
-  ImGui::TextColored(ImGui::ColorConvertU32ToFloat4(to_imgui(kWorstColour)), "%s", worst.c_str());
+  coloured_text(kWorstColour, worst);
   const std::string below = fmt::format("  below: {}, events {} to {}", name_of(debugger, window),
                                         grouped(window.begin), grouped(window.end));
   ImGui::SameLine();

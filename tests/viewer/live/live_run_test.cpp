@@ -514,8 +514,16 @@ TEST_CASE("in the window a pause shows its calls by itself, and the run its mesh
   s.run("breakpoint", {"operator edge_split"});  // of the run, not of what is looked at
   CHECK(s.document.live.breakpoints.size() == 1);
   s.run("clear_breakpoints");
-  s.run("live_continue");
-  REQUIRE(s.run("live_wait")["state"] == "finished");
+  SUBCASE("when it has gone on to its end") {
+    s.run("live_continue");
+    REQUIRE(s.run("live_wait")["state"] == "finished");
+  }
+  SUBCASE("when it ends at another call") {
+    for (int i = 0; i < 3; ++i) s.run("back_over");
+    CHECK_FALSE(s.document.view.camera == camera);
+    s.run("live_stop");
+    REQUIRE(s.run("live_wait")["state"] == "stopped");
+  }
   CHECK(s.document.debugger() == nullptr);
   CHECK_FALSE(s.document.view.scene.isolate);
   CHECK(s.document.view.camera == camera);  // and not in the last hole

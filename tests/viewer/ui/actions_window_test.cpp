@@ -143,6 +143,21 @@ TEST_CASE("an operator is tried on a picked tet by two clicks") {
   CHECK(state["trial"]["seconds"] < 0.1);
 }
 
+TEST_CASE("keys are for the picture again when Escape has closed a menu of operators") {
+  if (!can_test_window()) return;
+  Viewer viewer("sheet.mesh", kSize);
+  wait_until_still();
+  Hand hand;
+  hand.click(640, 400, 3);
+  Hand::move(670, 458);  // Try ...
+  hand.key("Escape");
+  wait_until_still();
+  hand.key("o");
+  const auto state = viewer.quit();
+  CHECK(state["trial"].is_null());
+  CHECK(state["view"]["camera"]["orthographic"] == true);
+}
+
 TEST_CASE("pause, three calls back, explain, another parameter, go on: six actions") {
   if (!can_test_window()) return;
   Viewer viewer("sheet.mesh", kSize);
