@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <regex>
 
 #include <fmt/format.h>
 
@@ -85,11 +86,35 @@ double add_quality_bar(Drawing& drawing, Place corner) {
   return corner.y + kHeight + 14;
 }
 
+namespace {
+
+/// "p_1" in it is as labels have it: a letter and an index below.
+void add_line(Drawing& drawing, Place at, const std::string& line, double size, figure::Font font) {
+  static const std::regex name(R"(\b[A-Za-z]_[0-9]\b)");
+  constexpr double kIndex = 0.7;  // both in units of the size
+  constexpr double kBelow = 0.18;
+  const auto add = [&](const std::string& text, double text_size, figure::Font text_font,
+                       double below) {
+    drawing.add(Text{{at.x, at.y + below}, text, text_size, text_font});
+    at.x += figure::text_width(text, text_size, text_font);
+  };
+  std::string rest = line;
+  for (std::smatch found; std::regex_search(rest, found, name); rest = found.suffix()) {
+    const std::string letter = found.str();
+    if (found.position() > 0) add(found.prefix(), size, font, 0);
+    add(letter.substr(0, 1), size, figure::Font::oblique, 0);
+    add(letter.substr(2), kIndex * size, font, kBelow * size);
+  }
+  if (!rest.empty()) add(rest, size, font, 0);
+}
+
+}  // namespace
+
 double add_paragraph(Drawing& drawing, Place top, double width, const std::string& text,
                      double size, figure::Font font) {
   double y = top.y;
   for (const std::string& line : figure::wrap(text, width, size, font)) {
-    drawing.add(Text{{top.x, y + size}, line, size, font});
+    add_line(drawing, {top.x, y + size}, line, size, font);
     y += size * kLineHeight;
   }
   return y;

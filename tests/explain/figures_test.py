@@ -81,6 +81,16 @@ class Figures(unittest.TestCase):
         for name in ("a", "b", "p"):
             self.assertRegex(shell, rf"\b{name}")
 
+    def test_the_caption_of_a_ring_has_the_index_of_its_first_vertex_below_the_line(self) -> None:
+        texts = list(ElementTree.parse(figure("1-core", 0, "ring", "svg")).getroot().iter(f"{SVG}text"))
+        self.assertNotIn("_", "".join(words_of_svg(figure("1-core", 0, "ring", "svg"))))
+        at = next(i for i, text in enumerate(texts) if "skirt polygon has" in (text.text or ""))
+        line, letter, index, rest = texts[at:at + 4]
+        self.assertEqual([letter.text, index.text], ["p", "1"])
+        self.assertTrue(rest.text.startswith(" = 2 on top"), rest.text)
+        self.assertGreater(float(index.attrib["y"]), float(line.attrib["y"]))
+        self.assertLess(float(index.attrib["font-size"]), float(line.attrib["font-size"]))
+
     def test_words_are_as_wide_as_they_were_laid_out(self) -> None:
         """By poppler's own metrics of Helvetica."""
         self.needs("pdftotext")
