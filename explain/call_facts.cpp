@@ -129,7 +129,7 @@ std::string quality_text(const Call& call, const CallFacts& facts) {
   if (call.accepted() && call.worst_before != 0) {
     return fmt::format("{:.3f} -> {:.3f}", call.worst_before, call.worst_after);
   }
-  if (facts.degree_after == 0) return fmt::format("{:.3f} -> gone", facts.quality_before);
+  if (facts.degree_after == 0) return fmt::format("{:.3f} -> removed", facts.quality_before);
   if (facts.quality_before == facts.quality_after) {
     return fmt::format("{:.3f}", facts.quality_before);
   }
@@ -148,6 +148,12 @@ std::string short_name(std::string_view operator_name) {
       break;
   }
   std::string name(operator_name);
+  constexpr std::string_view kFlip = "flip_";
+  if (name.starts_with(kFlip)) {  // as everybody says: a 3-2 flip
+    name.erase(0, kFlip.size());
+    std::replace(name.begin(), name.end(), '_', '-');
+    return name + " flip";
+  }
   std::replace(name.begin(), name.end(), '_', ' ');
   return name;
 }

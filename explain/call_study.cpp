@@ -345,8 +345,12 @@ std::string caption_of(const CallStudy& study, const PolygonView& view) {
     case PolygonStage::before:
       break;
   }
-  return fmt::format("before: degree {}, worst {:.4f}; dashed chords are no better",
-                     shell.ring.size(), shell.floor);
+  const auto chords = chords_of(shell);
+  const bool has_dashed = std::any_of(chords.begin(), chords.end(), [&](const Chord& chord) {
+    return chord.best()[0] <= shell.floor;
+  });
+  return fmt::format("before: degree {}, worst {:.4f}{}", shell.ring.size(), shell.floor,
+                     has_dashed ? "; dashed chords are no better" : "");
 }
 
 /// How many tets may lie around an edge that was not searched; without a limit, any number.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "explain/page.h"
 
+#include <regex>
+
 #include <fmt/format.h>
 
 #include "explain/call_facts.h"
@@ -41,6 +43,13 @@ Json lesson_json(const TraceFile& file, Replay& replay, const Lesson& lesson) {
     steps.push_back(std::move(row));
   }
   return {{"title", lesson.title}, {"steps", steps}};
+}
+
+/// HTML of a text in which "M_q" is as print has it. Pages do the same to theirs: withIndices().
+std::string with_indices(const std::string& text) {
+  static const std::regex name(R"(\b([A-Za-z])_([a-z0-9])\b)");
+  constexpr const char* kIndexed = "<span class=\"index\">$1<sub><i>_</i>$2</sub></span>";
+  return std::regex_replace(escaped(text), name, kIndexed);
 }
 
 /// To the list of pages, and to those before and after; nothing for a page by itself.
@@ -108,12 +117,13 @@ std::string write_index(const std::string& title, const std::string& text,
   std::string list;
   for (const PageLink& page : pages) {
     list += fmt::format("<li><a href=\"{}\">{}</a><p>{}</p></li>\n", escaped(page.file),
-                        escaped(page.title), escaped(page.text));
+                        with_indices(page.title), with_indices(page.text));
   }
   return fill_in(index_form(), {{"@TITLE@", escaped(title)},
                                 {"@ABOUT@", escaped(text)},
                                 {"@PROGRAM@", escaped(program)},
                                 {"@STYLE@", std::string(page_style())},
+                                {"@SCRIPT@", std::string(index_script())},
                                 {"@LIST@", list}});
 }
 

@@ -19,7 +19,9 @@
 #include <fmt/ranges.h>
 
 #include "contract/zoo.h"
+#include "explain/call_facts.h"
 #include "explain/call_study.h"
+#include "explain/paper_lines.h"
 #include "kernel/formats/mesh_io.h"
 #include "kernel/formats/output_file.h"
 #include "kernel/shell.h"
@@ -187,6 +189,7 @@ class LessonWriter {
     steps_.back().ask = Ask{Ask::Kind::number, std::move(text), std::move(of)};
   }
 
+  bool has_algorithm(const Call& c) const { return explain::code_of(file_, c) != nullptr; }
   std::string name(const Call& c) const { return std::string(file_.name(c.operator_name)); }
   std::string reason(const Call& c) const { return std::string(file_.reason(c)); }
 
@@ -444,6 +447,15 @@ const std::array<Refusal, 7> kRefusals = {{
      "This is no answer yet: the attempt is made again when the mesh is divided in another way."},
 }};
 
+/// An operator at the beginning of a sentence.
+std::string prose_name(const std::string& operator_name) {
+  if (operator_name.starts_with("flip_")) return "A " + explain::short_name(operator_name);
+  std::string name = operator_name;
+  std::replace(name.begin(), name.end(), '_', ' ');
+  name[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(name[0])));
+  return name;
+}
+
 void write_refusals(LessonWriter& lesson) {
   lesson.say(0,
              "Three small pieces, and one attempt for each reason to refuse. A refusal leaves no "
@@ -453,8 +465,8 @@ void write_refusals(LessonWriter& lesson) {
     const Call& call = lesson.call(lesson.find(
         0, [&](const Call& c) { return c.depth == 0 && c.verdict == refusal.verdict; }));
     lesson.say(call.events.begin + 1,
-               fmt::format("{} at the edge {} {}. {}", lesson.name(call), call.target()[0].index(),
-                           call.target()[1].index(), refusal.before),
+               fmt::format("{} at the edge {} {}. {}", prose_name(lesson.name(call)),
+                           call.target()[0].index(), call.target()[1].index(), refusal.before),
                refusal.focus);
     if (refusal.verdict == Verdict::no_improvement) {
       lesson.ask_for("triangulations", "How many triangulations has a ring of five corners?");
@@ -464,7 +476,8 @@ void write_refusals(LessonWriter& lesson) {
     lesson.say(call.events.end,
                fmt::format("The answer is \"{}\": {}. {}", call.verdict_text(), lesson.reason(call),
                            refusal.after),
-               {Focus::picture, Focus::algorithm});
+               lesson.has_algorithm(call) ? std::vector{Focus::picture, Focus::algorithm}
+                                          : std::vector{Focus::picture});
   }
 }
 

@@ -29,6 +29,14 @@ TEST_CASE("the facts of a call are those of the mesh at its beginning and its en
   CHECK(changed > 5);
 }
 
+TEST_CASE("operators and what became of a target are told in words") {
+  CHECK(short_name("flip_3_2") == "3-2 flip");
+  CHECK(short_name("shell_transformation") == "shell");
+  Call refused;
+  CHECK(quality_text(refused, {3, 0, 0.123F, 0}) == "0.123 -> removed");
+  CHECK(quality_text(refused, {3, 3, 0.852F, 0.919F}) == "0.852 -> 0.919");
+}
+
 TEST_CASE("a call is under way until its last event") {
   const test::HandmadeTrace trace;
   const TraceFile file(trace.path());

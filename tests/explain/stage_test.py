@@ -109,7 +109,7 @@ class Stage(unittest.TestCase):
         where.open("about:blank")
         where.open(page.as_uri())
         if large:
-            where.run("document.getElementById('text-size').click()")
+            where.run("if (document.documentElement.dataset.size !== 'large') document.getElementById('text-size').click()")  # it goes on from page to page
         steps = recording(page)["lesson"]["steps"]
         seen = where.run(WALK)
         for look in seen:
@@ -192,6 +192,125 @@ class Stage(unittest.TestCase):
             self.assertEqual(where.run("return document.querySelector('#lesson-text sub i').getBoundingClientRect().width"), 0)
         finally:
             where.close()
+
+    def test_the_index_is_as_wide_as_the_window_and_has_indices(self) -> None:
+        for width, height, _ in SIZES.values():
+            where = window(width, height)
+            try:
+                where.open((LECTURES / "index.html").as_uri())
+                wide = where.run("return [...document.querySelectorAll('*')].filter((e) => e.scrollWidth > innerWidth || e.getBoundingClientRect().right > innerWidth).map((e) => e.textContent.slice(0, 30))")
+                self.assertEqual(wide, [], width)
+                self.assertEqual(where.run("return [...document.querySelectorAll('.list sub')].map((e) => e.textContent)"), ["_q", "_k"])
+                if width < 500:
+                    self.assertGreaterEqual(where.run("return Math.min(...[...document.querySelectorAll('a')].map((e) => e.getBoundingClientRect().height))"), 44)
+            finally:
+                where.close()
+
+    def test_a_line_of_an_algorithm_with_an_index_is_one_line_of_text(self) -> None:
+        def page(name: str) -> str:
+            return (LECTURES / f"{name}.html").as_uri()
+
+        where = window(1920, 1080)
+        try:
+            where.open(f"{page('5-reconnection')}#lesson=3")
+            lines = where.run("""return [...document.querySelectorAll("#code li")].filter((li) => li.querySelector("sub")).map((li) => {
+                const index = li.querySelector(".index");
+                const text = document.createRange();
+                text.selectNodeContents(index.previousSibling);
+                return [li.children.length, li.textContent.trim(), index.getBoundingClientRect().left - text.getBoundingClientRect().right, new Set([...text.getClientRects()].map((r) => r.top)).size];
+            })""")
+            self.assertEqual([line[1] for line in lines], ["for each edge e_j of E", "recursion: remove e_j (Algorithm 4)", "for each face f_j of F", "multi-face removal of f_j"])
+            for parts, text, gap, rows in lines:
+                self.assertEqual((parts, rows), (1, 1), text)
+                self.assertLess(gap, 2, text)
+            where.open(f"{page('2-two-shells')}#lesson=2")
+            self.assertEqual(where.run("return [...document.querySelectorAll('#code button sub')].map((e) => e.textContent)"), ["_i", "_i"])
+            where.open("about:blank")
+            where.open(f"{page('2-two-shells')}#step=8")
+            self.assertIn("remove f_i at e'", where.run("return document.getElementById('caller').textContent"))
+            self.assertEqual(where.run("return document.querySelector('#caller sub').textContent"), "_i")
+        finally:
+            where.close()
+
+    def test_large_text_and_the_dark_go_on_to_the_next_page(self) -> None:
+        tables = next(page for page in PAGES if page.name == "4-tables.html")
+        looks = "const {size, theme} = document.documentElement.dataset; return [size, theme, document.getElementById('text-size').getAttribute('aria-pressed')]"
+        where = window(1280, 720)
+        try:
+            where.open(tables.as_uri())
+            self.assertEqual(where.run(looks), ["", "light", "false"])
+            where.run("document.getElementById('text-size').click(), document.getElementById('theme').click()")
+            cut = where.run("const h1 = document.querySelector('h1'); return h1.scrollWidth > h1.clientWidth + 1 || h1.scrollHeight > h1.clientHeight + 3 || getComputedStyle(h1).whiteSpace === 'nowrap'")
+            self.assertFalse(cut, "the title")
+            where.run("localStorage.clear()")  # as with a browser in which each file has its own
+            where.run("document.getElementById('to-next').click()")
+            self.assertTrue(where.wait_for("return location.pathname.endsWith('5-reconnection.html') && document.readyState === 'complete'"))
+            self.assertEqual(where.run(looks), ["large", "dark", "true"])
+            self.assertEqual(where.run("return location.search"), "")
+            where.open(PAGES[0].as_uri())
+            self.assertEqual(where.run(looks), ["large", "dark", "true"], "by storage")
+            where.open((LECTURES / "index.html").as_uri())
+            self.assertEqual(where.run("return [document.documentElement.dataset.theme, document.querySelector('a').search]"), ["dark", "?size=large&theme=dark"])
+            where.open(f"{PAGES[0].as_uri()}?size=normal&theme=auto&other=1#lesson=2")
+            self.assertEqual(where.run(looks), ["", "light", "false"])
+            self.assertEqual(where.run("return location.search + location.hash"), "?other=1#lesson=2")
+            self.quiet(where, "looks")
+        finally:
+            where.close()
+
+    def test_what_is_pressed_on_a_phone_is_as_high_as_a_finger(self) -> None:
+        """Lines of an algorithm are not: 16 of them would not fit into a window so."""
+        low = """const isLow = (e) => e.getClientRects().length > 0 && !e.closest("#code") && e.getBoundingClientRect().height < 43.9;
+            const low = () => [...document.querySelectorAll("button, a, input:not([type=checkbox]), label")].filter(isLow).map((e) => `${e.id} ${e.className} ${e.textContent}`);"""
+        where = window(390, 844)
+        try:
+            for page in PAGES:
+                where.open("about:blank")
+                where.open(page.as_uri())
+                self.assertEqual(where.run(low + "return lesson.steps.flatMap((step, n) => { goToLesson(n); return low(); })"), [], page.name)
+                self.assertEqual(where.run(low + "return steps.flatMap((step, n) => { goTo(n); return low(); })"), [], f"{page.name}, all panels")
+        finally:
+            where.close()
+
+    def test_the_colours_of_a_ring_are_named_below_it(self) -> None:
+        for width, height, _ in SIZES.values():
+            where = window(width, height)
+            try:
+                where.open(f"{PAGES[1].as_uri()}#lesson=4")
+                told = "return [...document.querySelectorAll('#ring-legend li')].filter((e) => e.getClientRects().length > 0).map((e) => e.dataset.kind)"
+                self.assertEqual(where.run(told), ["chord", "core"], width)
+                where.run("goToLesson(5)")
+                phone = ["face", "ancestor"] if width < 500 else []  # elsewhere the picture has its own legend
+                self.assertEqual(where.run(told), phone, width)
+            finally:
+                where.close()
+
+    def test_no_panel_of_a_step_is_blank(self) -> None:
+        where = window(1280, 720)
+        try:
+            for page in PAGES:
+                where.open("about:blank")
+                where.open(page.as_uri())
+                blank = where.run("""return lesson.steps.flatMap((step, n) => {
+                    goToLesson(n);
+                    const code = document.querySelector(".code");
+                    return code.getClientRects().length > 0 && document.querySelectorAll("#code li").length === 0 ? [n + 1] : [];
+                })""")
+                self.assertEqual(blank, [], page.name)
+                for step in recording(page)["lesson"]["steps"]:
+                    self.assertNotRegex(step["text"], r"flip.3.2|\w+_(transformation|removal|insertion)", page.name)
+            where.open((LECTURES / "3-refusals.html").as_uri() + "#step=3")
+            self.assertIn("0 3-2 flip 0-1", where.run("return document.getElementById('tree').textContent"))
+        finally:
+            where.close()
+
+    def test_dashed_chords_are_spoken_of_where_there_are_any(self) -> None:
+        captions = [(stage[2], len(data["shells"][stage[3]]["ring"])) for page in PAGES for data in [recording(page)] for call in data["calls"].values()
+                    for stage in (data["shells"][call["shell"]] | call["made"] if "shell" in call else {}).get("stages", [])]
+        triangles = [caption for caption, corners in captions if corners == 3 and caption.startswith("before: ")]
+        self.assertGreater(len(triangles), 3)
+        self.assertEqual([caption for caption in triangles if "chords" in caption], [])
+        self.assertGreater(sum("dashed chords" in caption for caption, corners in captions if corners > 4), 3)
 
     def test_answers_are_those_of_the_trace_and_count_once(self) -> None:
         where = window(1920, 1080)

@@ -26,6 +26,7 @@ class RingDrawing {
     this.shell = shell;
     this.parts = [];
     this.labels = [];
+    this.kinds = new Set();  // of lines
     const m = shell.ring.length;
     this.text = m > 10 ? 0.058 : 0.078;
   }
@@ -33,6 +34,7 @@ class RingDrawing {
   at(i) { return ringPlace(this.shell, i); }
 
   stroke(from, to, kind, width, {dashed = false, opacity = 1, tip = ""} = {}) {
+    this.kinds.add(kind);
     const line = svgElement("line", {x1: from[0], y1: from[1], x2: to[0], y2: to[1], stroke: inCss(colourOf(kind)), "stroke-width": width * 0.006, "stroke-opacity": opacity,
       "stroke-linecap": "round", "stroke-dasharray": dashed ? "0.03 0.03" : "none", "data-kind": kind});
     if (tip) line.append(svgElement("title", {}, tip));
@@ -109,9 +111,10 @@ class RingDrawing {
   finish() { this.svg.replaceChildren(...this.parts, ...this.labels); }
 }
 
+/** Gives the kinds of its lines. */
 function showRing(call, position, cell) {
   byId("ring-card").hidden = !call?.shell;
-  if (!call?.shell) return;
+  if (!call?.shell) return new Set();
   const {name, caption, shell} = stageOfRing(call, position);
   byId("caption").textContent = caption;
   const drawing = new RingDrawing(byId("ring"), shell);
@@ -127,6 +130,7 @@ function showRing(call, position, cell) {
   }
   if (cell) drawing.cell(cell);
   drawing.finish();
+  return drawing.kinds;
 }
 
 // --- chords and tables ---
@@ -207,7 +211,7 @@ function tableText(shell, filled, here, isFilling) {
 // --- the algorithm ---
 
 function listLines(list, lines, here) {
-  list.replaceChildren(...lines.map((text, n) => make("li", here.includes(n + 1) ? {class: "here", "aria-current": "step"} : {}, ...withIndices(text))));
+  list.replaceChildren(...lines.map((text, n) => make("li", here.includes(n + 1) ? {class: "here", "aria-current": "step"} : {}, make("span", {}, ...withIndices(text)))));  // as one: parts would stand beside each other
 }
 
 function showCode(step) {
@@ -220,11 +224,12 @@ function showCode(step) {
   const pass = step.passLine > 0 ? {...recording.codes[PASS_CODE], line: step.passLine} : null;
   const here = stack.length > 0 ? codeOf(stack.length - 1) : pass;
   const caller = stack.length > 1 ? codeOf(stack.length - 2) : stack.length === 1 ? pass : null;
-  byId("code-title").textContent = here ? here.title : stack.length > 0 ? "An operator that is not described" : "No call here";
+  byId("code-title").replaceChildren(...withIndices(here ? here.title : stack.length > 0 ? "An operator that is not described" : "No call here"));
+  document.querySelector(".code").hidden = isOnStage() && !here;
   listLines(byId("code"), here ? here.lines : [], here ? [here.line] : []);
   byId("caller").replaceChildren();
   if (!caller || caller.line === 0) return;
-  byId("caller").append(`called from line ${caller.line} of ${caller.title.split(":")[0]}: `, make("b", {}, caller.lines[caller.line - 1].trim()),
+  byId("caller").append(`called from line ${caller.line} of ${caller.title.split(":")[0]}: `, make("b", {}, ...withIndices(caller.lines[caller.line - 1].trim())),
     step.goesOn > 0 ? `; goes on at line ${step.goesOn}` : "");
 }
 
@@ -257,15 +262,17 @@ function rowsOfTree(step) {
   return rows;
 }
 
-const MOST_ON_STAGE = 9;  // rows
+/** Rows, which are higher for fingers. */
+const mostOnStage = () => matchMedia("(pointer: coarse), (max-width: 40rem)").matches ? 5 : 9;
 
 /** All, or on the stage of a lesson those around the call at hand. */
 function rowsInSight(step) {
   const rows = rowsOfTree(step);
-  if (!isOnStage() || rows.length <= MOST_ON_STAGE) return rows;
+  const most = mostOnStage();
+  if (!isOnStage() || rows.length <= most) return rows;
   const here = Math.max(rows.findIndex(({call}) => call.number === step.call), 0);
-  const first = Math.min(Math.max(here - (MOST_ON_STAGE >> 1), 0), rows.length - MOST_ON_STAGE);
-  return rows.slice(first, first + MOST_ON_STAGE);
+  const first = Math.min(Math.max(here - (most >> 1), 0), rows.length - most);
+  return rows.slice(first, first + most);
 }
 
 function showTree(step, enter, redraw) {
@@ -314,12 +321,18 @@ function showTold(step, enter) {
 const LEGEND = [["visited", "tet t that the pass turns to", 3.5, ""], ["edge", "edge ab, or the target", 4.5, ""], ["skirt", "ring", 2.5, ""], ["chord", "chord of the new covering", 3, ""], ["core", "side of the core", 5, ""],
   ["ancestor", "edges that the callers remove", 4, "5 4"], ["cell", "the cell of the tables", 4, ""], ["ghost", "tets around", 1.2, ""]];
 
-function showLegend(scene) {
-  const items = LEGEND.filter(([kind]) => scene.kinds.has(kind)).map(([kind, text, width, dashes]) => {
-    const svg = svgElement("svg", {viewBox: "0 0 22 9", "aria-hidden": "true"});
-    svg.append(svgElement("line", {x1: 1, y1: 4.5, x2: 21, y2: 4.5, stroke: inCss(colourOf(kind)), "stroke-width": width, "stroke-dasharray": dashes}));
-    return make("li", {}, svg, text);
-  });
+// Short: for the stage of a lesson, below the ring. The rest is seen in the picture alone, and for windows that leave out its legend.
+const RING_LEGEND = [["chord", "chord", 3, ""], ["core", "side of the core", 5, ""], ["cell", "cell of the tables", 4, ""]];
+const PICTURE_LEGEND = [["face", "face f to remove", 9, ""], ["ancestor", "edges of callers", 4, "5 4"]];
+
+function legendLine([kind, text, width, dashes]) {
+  const svg = svgElement("svg", {viewBox: "0 0 22 9", "aria-hidden": "true"});
+  svg.append(svgElement("line", {x1: 1, y1: 4.5, x2: 21, y2: 4.5, stroke: inCss(colourOf(kind)), "stroke-width": width, "stroke-dasharray": dashes}));
+  return make("li", {"data-kind": kind}, svg, text);
+}
+
+function showLegend(scene, ringKinds) {
+  const items = LEGEND.filter(([kind]) => scene.kinds.has(kind)).map(legendLine);
   const swatch = (colours) => {
     const svg = svgElement("svg", {viewBox: "0 0 22 9", "aria-hidden": "true"});
     colours.forEach((colour, n) => svg.append(svgElement("rect", {x: n * 22 / colours.length, y: 0, width: 22 / colours.length + 0.2, height: 9, fill: inCss(colour)})));
@@ -329,4 +342,7 @@ function showLegend(scene) {
   if (scene.kinds.has("face")) items.push(make("li", {}, swatch([colourOf("face")]), `face f to remove, ${scene.faceToRemove.join(" ")}`));
   if (scene.faces.length > 0) items.push(make("li", {}, swatch([BAD]), "bad tet, q < 1"), make("li", {}, swatch(EMBER.slice(3)), "quality q, from 1, which just meets the goal, to 2"));
   byId("legend").replaceChildren(...items);
+  const ofPicture = PICTURE_LEGEND.filter(([kind]) => scene.kinds.has(kind)).map(legendLine);
+  for (const item of ofPicture) item.className = "of-picture";
+  byId("ring-legend").replaceChildren(...RING_LEGEND.filter(([kind]) => ringKinds.has(kind)).map(legendLine), ...ofPicture);
 }

@@ -131,7 +131,7 @@ function checkNumber(event) {
 function askForLine(n, ask) {
   const answer = answers.get(n);
   [...byId("code").children].forEach((item, index) => {
-    const button = make("button", {type: "button", onclick: () => giveAnswer(n, index + 1 === ask.answer, index + 1)}, item.textContent);
+    const button = make("button", {type: "button", onclick: () => giveAnswer(n, index + 1 === ask.answer, index + 1)}, ...item.childNodes);
     button.disabled = Boolean(answer);
     if (answer && index + 1 === ask.answer) button.className = "right";
     else if (answer && index + 1 === answer.given) button.className = "wrong";

@@ -119,14 +119,14 @@ function show(isSudden = false) {
   scene = makeScene(step, cell, view.when, view.apart, view.around);
   showTold(step, enter);
   showCode(step);
-  showRing(call, step.position, cell);
+  const ringKinds = showRing(call, step.position, cell);
   showTables(call, filling ? place.cell : total, Boolean(filling));
   showChords(call, step.position);
   const main = document.querySelector("main");
   main.classList.toggle("no-shell", !call?.shell);
   main.classList.toggle("no-tables", Boolean(call?.shell) && byId("tables-card").hidden);
   showTree(step, enter, show);
-  showLegend(scene);
+  showLegend(scene, ringKinds);
   showLesson(step, call);
   showPlace(step, filling ? total : 0);
   letKeysScroll();
@@ -261,7 +261,14 @@ function toggleSize() {
   const isLarge = document.documentElement.dataset.size !== "large";
   document.documentElement.dataset.size = isLarge ? "large" : "";
   byId("text-size").setAttribute("aria-pressed", String(isLarge));
+  keepLook("size", isLarge ? "large" : "normal");
   show();
+}
+
+function chooseTheme() {
+  toggleTheme(show);
+  const {theme} = document.documentElement.dataset;
+  keepLook("theme", theme === wantedTheme() ? "auto" : theme);
 }
 
 function copyLink() {
@@ -301,7 +308,7 @@ const KEYS = [
   [["3"], "The tets as the call left or tried them", () => showWhen("after")],
   [["a"], "Look along the edge", () => { lookAlong(callOf(steps[place.step])); redrawPicture(); }],
   [["h"], "Look from the side", () => { camera.zoom = 1; lookFromSide(callOf(steps[place.step])); goToBall(inView.ball, true); }],
-  [["t"], "Light or dark", () => toggleTheme(show)],
+  [["t"], "Light or dark", chooseTheme],
   [["g"], "Large text, for a projector", toggleSize],
   [["c"], "Copy a link to this step", copyLink],
   [["?"], "These keys", () => byId("keys").showModal()],
@@ -353,7 +360,9 @@ function describeOrigin() {
 }
 
 function begin() {
-  setTheme(wantedTheme());
+  findLooks();
+  setTheme(themeOf(wantedTheme()));
+  byId("text-size").setAttribute("aria-pressed", String(kept.size === "large"));
   describeOrigin();
   byId("lesson").hidden = byId("bar").hidden = !lesson;
   setMode(lesson ? "lesson" : "explore");
@@ -372,7 +381,7 @@ function begin() {
   const keyFor = (key) => KEYS.find(([keys]) => keys.includes(key))[2];
   byId("along").addEventListener("click", keyFor("a"));
   byId("home").addEventListener("click", keyFor("h"));
-  byId("theme").addEventListener("click", () => toggleTheme(show));
+  byId("theme").addEventListener("click", chooseTheme);
   byId("text-size").addEventListener("click", toggleSize);
   byId("copy-link").addEventListener("click", copyLink);
   byId("show-keys").addEventListener("click", keyFor("?"));
