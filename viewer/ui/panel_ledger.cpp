@@ -35,11 +35,13 @@ void number_cell(const std::string& text) {
   right_aligned(text);
 }
 
-/// The same row of the other run.
-const LedgerRow* row_there(const Debugger& debugger, std::string_view name,
-                           std::vector<LedgerRow>& rows) {
-  if (debugger.other() == nullptr) return nullptr;
-  if (rows.empty()) rows = debugger.other()->comparison().b.by_operator();
+/// Nothing for 0, as count_cell() has it.
+std::string some(std::size_t count) {
+  return count == 0 ? std::string() : grouped(count);
+}
+
+/// The same row of the other run; null: it has none.
+const LedgerRow* row_there(std::string_view name, const std::vector<LedgerRow>& rows) {
   const auto found = std::find_if(rows.begin(), rows.end(),
                                   [&](const LedgerRow& row) { return row.operator_name == name; });
   return found == rows.end() ? nullptr : &*found;
@@ -98,7 +100,11 @@ void show_ledger_rows(Debugger& debugger, std::string& chosen) {
   });
   ImGui::TableSetupColumn("operator", ImGuiTableColumnFlags_WidthStretch);
   std::size_t most = 0;
-  for (const LedgerRow& row : rows) most = std::max(most, row.total().calls);
+  std::vector<LedgerRow> other;
+  if (debugger.other() != nullptr) other = debugger.other()->comparison().b.by_operator();
+  for (const auto* of_run : {&rows, &other}) {
+    for (const LedgerRow& row : *of_run) most = std::max(most, row.total().calls);
+  }
   const std::string longest = grouped(most);
   for (const char* title : {"calls", "for good", "undone", "refused"}) {
     const float width =
@@ -106,10 +112,9 @@ void show_ledger_rows(Debugger& debugger, std::string& chosen) {
     ImGui::TableSetupColumn(title, ImGuiTableColumnFlags_WidthFixed, width);
   }
   headers_row(1);
-  std::vector<LedgerRow> other;
   for (const LedgerRow& row : rows) {
     const std::string name(row.operator_name);
-    const LedgerRow* there = row_there(debugger, name, other);
+    const LedgerRow* there = row_there(name, other);
     ImGui::TableNextRow();
     ImGui::TableNextColumn();
     const bool is_unfolded = show_operator(name);
@@ -121,11 +126,11 @@ void show_ledger_rows(Debugger& debugger, std::string& chosen) {
     if (there != nullptr) {
       ImGui::TableNextRow();
       ImGui::TableNextColumn();
-      ImGui::TextDisabled("   in the other run");
-      number_cell(grouped(there->total().calls));
-      number_cell(grouped(there->cell(CallEnding::for_good).calls));
-      number_cell(grouped(there->cell(CallEnding::undone).calls));
-      number_cell(grouped(there->refused().calls));
+      ImGui::TextDisabled("    there");
+      number_cell(some(there->total().calls));
+      number_cell(some(there->cell(CallEnding::for_good).calls));
+      number_cell(some(there->cell(CallEnding::undone).calls));
+      number_cell(some(there->refused().calls));
     }
     if (is_unfolded) show_endings(row, there, chosen);
   }
