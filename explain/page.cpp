@@ -47,9 +47,9 @@ Json lesson_json(const TraceFile& file, Replay& replay, const Lesson& lesson) {
 
 /// HTML of a text in which "M_q" is as print has it. Pages do the same to theirs: withIndices().
 std::string with_indices(const std::string& text) {
-  static const std::regex name(R"(\b([A-Za-z])_([a-z0-9])\b)");
+  static const std::regex kName(R"(\b([A-Za-z])_([a-z0-9])\b)");
   constexpr const char* kIndexed = "<span class=\"index\">$1<sub><i>_</i>$2</sub></span>";
-  return std::regex_replace(escaped(text), name, kIndexed);
+  return std::regex_replace(escaped(text), kName, kIndexed);
 }
 
 /// To the list of pages, and to those before and after; nothing for a page by itself.

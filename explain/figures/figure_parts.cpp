@@ -90,7 +90,7 @@ namespace {
 
 /// "p_1" in it is as labels have it: a letter and an index below.
 void add_line(Drawing& drawing, Place at, const std::string& line, double size, figure::Font font) {
-  static const std::regex name(R"(\b[A-Za-z]_[0-9]\b)");
+  static const std::regex kName(R"(\b[A-Za-z]_[0-9]\b)");
   constexpr double kIndex = 0.7;  // both in units of the size
   constexpr double kBelow = 0.18;
   const auto add = [&](const std::string& text, double text_size, figure::Font text_font,
@@ -99,7 +99,7 @@ void add_line(Drawing& drawing, Place at, const std::string& line, double size, 
     at.x += figure::text_width(text, text_size, text_font);
   };
   std::string rest = line;
-  for (std::smatch found; std::regex_search(rest, found, name); rest = found.suffix()) {
+  for (std::smatch found; std::regex_search(rest, found, kName); rest = found.suffix()) {
     const std::string letter = found.str();
     if (found.position() > 0) add(found.prefix(), size, font, 0);
     add(letter.substr(0, 1), size, figure::Font::oblique, 0);
