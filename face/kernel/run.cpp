@@ -190,8 +190,8 @@ std::vector<PassDone> Run::make(const Pass& pass) {
     in.is_over = run.cancelled();
   };
   keeper.start();
-  mesh.is_at_work_ = true;
   if (mesh.locks_ != nullptr) hold(mesh.mesh_, [&](VertexHandle v) { return mesh.has_lock(v); });
+  mesh.is_at_work_ = true;
   try {
     const int threads = in.options.operators == nullptr ? in.options.threads : 1;
     face::on_threads(threads, [&] { pass(run); });
