@@ -200,26 +200,26 @@ void DividedMesh::end_slices() {
   state_.first_added.assign(state_.stored, state_.next_id);
 }
 
-/// Of this rank's part of the mesh, each vertex once.
-void DividedMesh::each_point(const std::function<void(const Point&)>& use) const {
-  const auto use_own = [&](const Piece& vertices) {
+/// Of what a stored part has, each vertex once.
+std::vector<Point> DividedMesh::points_of(std::size_t part) const {
+  std::vector<Point> points;
+  const auto take_own = [&](const Piece& vertices) {
     for (std::size_t v = 0; v < vertices.ids.size(); ++v) {
-      if (is_own(vertices.marks[v])) use(vertices.points[v]);
+      if (is_own(vertices.marks[v])) points.push_back(vertices.points[v]);
     }
   };
-  for (const std::size_t part : own_) {
-    use_own(stored_vertices(part));
-    shelf_->visit(kept_name(part), [&](std::string_view rest) {
-      while (!rest.empty()) {
-        std::uint64_t source = 0;
-        const std::string_view message = take_message(rest, source);
-        const auto read = [&](auto begin, auto size) {
-          return std::string(message.substr(std::min<std::uint64_t>(begin, message.size()), size));
-        };
-        use_own(read_vertices(read, 0, std::numeric_limits<std::size_t>::max()));
-      }
-    });
-  }
+  take_own(stored_vertices(part));
+  shelf_->visit(kept_name(part), [&](std::string_view rest) {
+    while (!rest.empty()) {
+      std::uint64_t source = 0;
+      const std::string_view message = take_message(rest, source);
+      const auto read = [&](auto begin, auto size) {
+        return std::string(message.substr(std::min<std::uint64_t>(begin, message.size()), size));
+      };
+      take_own(read_vertices(read, 0, std::numeric_limits<std::size_t>::max()));
+    }
+  });
+  return points;
 }
 
 Parting DividedMesh::cut(std::size_t pieces, unsigned shift) const {
@@ -229,7 +229,13 @@ Parting DividedMesh::cut(std::size_t pieces, unsigned shift) const {
   const HilbertCurve curve = shifted_curve(state_.low, side, shift);
   KeyHistogram histogram;
   const auto count_all = [&] {
-    each_point([&](const Point& p) { histogram.count(curve.key(p)); });
+    side_by_side_.each(own_.size(), [&](std::size_t i) -> SideBySide::Use {
+      std::vector<std::uint64_t> keys;
+      for (const Point& p : points_of(own_[i])) keys.push_back(curve.key(p));
+      return [&histogram, keys = std::move(keys)] {
+        for (const std::uint64_t key : keys) histogram.count(key);
+      };
+    });
     ranks_.add(histogram.counts());
   };
   count_all();
@@ -241,10 +247,14 @@ Parting DividedMesh::cut(std::size_t pieces, unsigned shift) const {
 
 std::vector<std::int64_t> DividedMesh::count_vertices(const ZoneMap& zones) const {
   std::vector<std::int64_t> counts(zones.balls().size() + 1, 0);
-  const std::span<std::int64_t> by_ball = std::span(counts).first(zones.balls().size());
-  each_point([&](const Point& p) {
-    zones.count({&p, 1}, by_ball);
-    ++counts.back();
+  side_by_side_.each(own_.size(), [&](std::size_t i) -> SideBySide::Use {
+    std::vector<std::int64_t> mine(counts.size(), 0);
+    const std::vector<Point> points = points_of(own_[i]);
+    zones.count(points, std::span(mine).first(zones.balls().size()));
+    mine.back() = static_cast<std::int64_t>(points.size());
+    return [&counts, mine = std::move(mine)] {
+      for (std::size_t k = 0; k < counts.size(); ++k) counts[k] += mine[k];
+    };
   });
   ranks_.add(counts);
   return counts;
@@ -292,17 +302,26 @@ void DividedMesh::send_all(Parting parting, unsigned rings, Shelf* next) {
     to.remove(gathered_name(part));
     to.remove(rest_name(part));
   }
-  const std::size_t rounds = most_own();
+  const auto remove = [&](std::size_t part) {
+    if (next != nullptr) return;
+    shelf_->remove(stored_name(part));
+    shelf_->remove(kept_name(part));
+  };
+  const auto send = [&](SentPart sent) {
+    traffic_.back().tets += sent.tets;
+    std::vector<std::string> out = send_out(std::move(sent.messages), owners, to);
+    remove(sent.part);
+    return out;
+  };
+  if (ranks_.count() == 1) {
+    side_by_side_.each(own_.size(), [&](std::size_t i) -> SideBySide::Use {
+      return [&, sent = messages_of(own_[i], rings)]() mutable { send(std::move(sent)); };
+    });
+  }
+  const std::size_t rounds = ranks_.count() == 1 ? 0 : most_own();
   for (std::size_t round = 0; round < rounds; ++round) {
     std::vector<std::string> messages(ranks_.count());
-    if (round < own_.size()) {
-      messages = send(own_[round], rings, owners, to);
-      if (next == nullptr) {
-        shelf_->remove(stored_name(own_[round]));
-        shelf_->remove(kept_name(own_[round]));
-      }
-    }
-    if (ranks_.count() == 1) continue;
+    if (round < own_.size()) messages = send(messages_of(own_[round], rings));
     for (const std::string& from : ranks_.exchange(std::move(messages))) {
       traffic_.back().received += from.size();
       keep(from, to);
@@ -331,31 +350,42 @@ struct Address {
 
 }  // namespace
 
-/// What is for this rank goes to the shelf, the rest is returned, by rank.
-std::vector<std::string> DividedMesh::send(std::size_t part, unsigned rings,
-                                           const std::vector<std::uint32_t>& owners, Shelf& next) {
-  std::vector<std::string> to(ranks_.count());
-  const auto send_one = [&](std::size_t target, bool is_rest, std::string message) {
-    if (message.empty()) return;
-    if (owners[target] == ranks_.number()) {
-      next.append(is_rest ? rest_name(target) : gathered_name(target), std::move(message));
-      return;
-    }
-    std::string& out = to[owners[target]];
-    put(Address{target, is_rest ? 1U : 0U, message.size()}, out);
-    out += message;
+/// Other parts may be read at the same time.
+DividedMesh::SentPart DividedMesh::messages_of(std::size_t part, unsigned rings) const {
+  SentPart sent{part};
+  const auto add = [&](std::size_t target, bool is_rest, std::string bytes) {
+    if (!bytes.empty()) sent.messages.push_back({target, is_rest, std::move(bytes)});
   };
   const std::size_t stretches = state_.parting.stretches();
   const std::size_t home = part < stretches ? part : (part - stretches) % stretches;
   std::uint64_t source = std::uint64_t{part} << 32;  // and which piece of that part
   for (Piece& piece : all_stored(part)) {
-    traffic_.back().tets += piece.tets.size();
+    sent.tets += piece.tets.size();
     Messages messages(std::move(piece), state_.parting, rings);
     for (std::size_t target = 0; target < parts(); ++target) {
-      send_one(target, false, messages.message(source, target));
+      add(target, false, messages.message(source, target));
     }
-    send_one(home, true, messages.rest(source));
+    add(home, true, messages.rest(source));
     ++source;
+  }
+  return sent;
+}
+
+/// What is for this rank goes to the shelf, the rest is returned, by rank.
+std::vector<std::string> DividedMesh::send_out(std::vector<Message> messages,
+                                               const std::vector<std::uint32_t>& owners,
+                                               Shelf& next) const {
+  std::vector<std::string> to(ranks_.count());
+  for (Message& message : messages) {
+    if (owners[message.target] == ranks_.number()) {
+      next.append(message.is_rest ? rest_name(message.target) : gathered_name(message.target),
+                  std::move(message.bytes));
+      continue;
+    }
+    std::string& out = to[owners[message.target]];
+    put(Address{message.target, message.is_rest ? 1U : 0U, message.bytes.size()}, out);
+    out += message.bytes;
+    message.bytes = {};
   }
   return to;
 }

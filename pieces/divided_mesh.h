@@ -14,6 +14,7 @@
 #include "pieces/piece_task.h"
 #include "pieces/ranks.h"
 #include "pieces/sealed_shelf.h"
+#include "pieces/side_by_side.h"
 
 namespace tetmend::pieces {
 
@@ -65,6 +66,9 @@ class DividedMesh {
   Ranks& ranks() const { return ranks_; }
   /// Ids from that on are of vertices that were added.
   VertexId first_added() const { return state_.first_id + state_.in_file; }
+  /// How many pieces are read and divided at a time; one, unless that is set. For one rank, and a shelf
+  /// that may be read by several threads.
+  void set_side_by_side(std::size_t most) { side_by_side_ = SideBySide(most); }
   /// The pieces of this rank, ascending: the stored ones, or where there are none the gathered ones.
   const std::vector<std::size_t>& own() const { return own_; }
 
@@ -118,11 +122,23 @@ class DividedMesh {
   const std::vector<Traffic>& traffic() const { return traffic_; }
 
  private:
-  void each_point(const std::function<void(const Point&)>& use) const;
+  struct Message {
+    std::size_t target = 0;
+    bool is_rest = false;
+    std::string bytes;
+  };
+  /// All that a stored part sends.
+  struct SentPart {
+    std::size_t part = 0;
+    std::uint64_t tets = 0;
+    std::vector<Message> messages = {};
+  };
+  std::vector<Point> points_of(std::size_t part) const;
   std::size_t most_own() const;
   void send_all(Parting parting, unsigned rings, Shelf* next);
-  std::vector<std::string> send(std::size_t part, unsigned rings,
-                                const std::vector<std::uint32_t>& owners, Shelf& next);
+  SentPart messages_of(std::size_t part, unsigned rings) const;
+  std::vector<std::string> send_out(std::vector<Message> messages,
+                                    const std::vector<std::uint32_t>& owners, Shelf& next) const;
   std::vector<Piece> all_stored(std::size_t part) const;
   void keep(std::string_view messages, Shelf& next);
   void number(std::size_t part, std::vector<VertexId>& ids) const;
@@ -134,6 +150,7 @@ class DividedMesh {
   std::vector<std::size_t> own_;
   std::function<void(Piece&)> marker_;
   bool has_box_ = false;
+  SideBySide side_by_side_;
   std::vector<Traffic> traffic_;
 };
 

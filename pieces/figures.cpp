@@ -219,6 +219,11 @@ void keep_worst(std::vector<NamedTet>& tets) {
   if (tets.size() > kMostNamed) tets.resize(kMostNamed);
 }
 
+/// Of other parts: 0 where those have no such vertex.
+void add_lengths(std::span<const double> others, std::span<double> lengths) {
+  for (std::size_t i = 0; i < lengths.size(); ++i) lengths[i] = std::max(lengths[i], others[i]);
+}
+
 /// @param number in the piece
 NamedTet name_tet(const TetMesh& mesh, TetHandle t, const Piece& gathered, std::uint64_t number,
                   std::uint8_t fixed) {
@@ -316,6 +321,15 @@ face::SizeCounts sizes_of_own(const TetMesh& mesh, std::span<const std::uint32_t
 }
 
 }  // namespace
+
+void Survey::add(Survey other) {
+  for (std::size_t r = 0; r < kRulerCount; ++r) worst.add(r, other.worst.sorted(r));
+  add_lengths(other.lengths.lengths(), lengths.lengths());
+  held.add(other.held);
+  shared.insert(shared.end(), other.shared.begin(), other.shared.end());
+  worst_tets.insert(worst_tets.end(), other.worst_tets.begin(), other.worst_tets.end());
+  keep_worst(worst_tets);
+}
 
 Figures measure_own(const Piece& gathered, const Parting& parting, std::uint32_t number,
                     const Standard& standard, Survey* survey, const WantedLengths* wanted,
@@ -493,7 +507,7 @@ void add_survey(const std::vector<std::uint64_t>& tets, Survey survey, Ranks& ra
     std::string_view rest = from;
     std::vector<double> others;
     take(rest, others);
-    for (std::size_t i = 0; i < lengths.size(); ++i) lengths[i] = std::max(lengths[i], others[i]);
+    add_lengths(others, lengths);
   }
   measured.lengths = std::move(survey.lengths);
 }

@@ -67,6 +67,9 @@ struct Survey {
   face::Held held = {};
   std::vector<SharedTet> shared = {};
   std::vector<NamedTet> worst_tets = {};  ///< kMostNamed
+
+  /// That of other parts.
+  void add(Survey other);
 };
 
 /// How much of a mesh is measured besides its Figures.

@@ -38,12 +38,7 @@ class Tools {
         settings_(plan_.schedule, plan_.settings),
         task_{plan_.registry, plan_.schedule, settings_, plan_.standard} {
     task_.check_operators = options.check_operators;
-    task_.watch = [this](Run& run) {
-      run.set_listener(&watcher_);
-      run.set_cancel_flag(options_.cancel);
-      watcher_.watch(&run, now_);
-    };
-    task_.unwatch = [this] { watcher_.watch(nullptr, now_); };
+    task_.watcher = &watcher_;
   }
 
   const TaskOptions& task() const { return task_; }
@@ -59,7 +54,6 @@ class Tools {
   face::Plan plan_;
   face::Watcher watcher_;
   AimSettings settings_;
-  QualityIndicators now_;
   TaskOptions task_;
 };
 

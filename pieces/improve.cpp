@@ -220,14 +220,9 @@ void Improvement::work() {
   task.size_field = size_field_;
   task.trace = &trace_;
   task.check_operators = options_.check_operators;
-  QualityIndicators now;
-  task.watch = [&](Run& run) {
-    run.set_listener(&watcher_);
-    run.set_cancel_flag(options_.cancel);
-    watcher_.watch(&run, now);
-  };
-  task.unwatch = [&] { watcher_.watch(nullptr, now); };
+  task.watcher = &watcher_;
   PieceRun run(divided_, division_, task);
+  run.set_side_by_side(division_.pieces);
   run.set_limits(
       {result_.before.tets, result_.before.n_bad,
        plan_.growth.most(result_.before.tets).value_or(std::numeric_limits<std::uint64_t>::max()),
@@ -236,7 +231,7 @@ void Improvement::work() {
     return watcher_.stopped() || (options_.cancel != nullptr && options_.cancel->load());
   });
   run.set_listener([&](const StepRecord& record) {
-    now = record.after.indicators;
+    watcher_.watch(nullptr, record.after.indicators);
     result_.passes.push_back(to_pass(record));
   });
   if (!plan_.surface.is_fixed()) {
@@ -428,6 +423,11 @@ std::size_t usual_pieces(std::size_t tets) {
 namespace {
 
 constexpr std::uint64_t kProgram = 40'000'000;  // bytes, without a piece
+constexpr std::uint64_t kBytesPerTet = 130;     // of a piece that is worked on
+
+std::uint64_t room_for_pieces(std::uint64_t memory) {
+  return memory > kProgram ? memory - kProgram : 0;
+}
 
 }  // namespace
 
@@ -439,10 +439,14 @@ void check_memory(std::uint64_t memory) {
 }
 
 std::size_t pieces_for(std::size_t tets, std::uint64_t memory) {
-  constexpr std::uint64_t kBytesPerTet = 130;  // of a piece that is worked on
-  const std::uint64_t room = memory > kProgram ? memory - kProgram : 0;
-  const std::uint64_t most = std::max<std::uint64_t>(10'000, room / kBytesPerTet);
+  const std::uint64_t most =
+      std::max<std::uint64_t>(10'000, room_for_pieces(memory) / kBytesPerTet);
   return static_cast<std::size_t>((tets + most - 1) / most);
+}
+
+std::size_t pieces_at_a_time(std::size_t tets, std::size_t pieces, std::uint64_t memory) {
+  const std::uint64_t of_one = kBytesPerTet * std::max<std::uint64_t>(1, tets / pieces);
+  return std::clamp<std::size_t>(room_for_pieces(memory) / of_one, 1, pieces);
 }
 
 Result improve(Mesh& mesh, const Options& options, const Division& division,

@@ -48,5 +48,8 @@ std::size_t usual_pieces(std::size_t tets);
 void check_memory(std::uint64_t memory);
 /// How many pieces a mesh needs so that one can be worked on in so many bytes. At least 1.
 std::size_t pieces_for(std::size_t tets, std::uint64_t memory);
+/// How many of so many pieces can be worked on at a time in so many bytes. At least 1; 0 bytes, for
+/// not given: 1.
+std::size_t pieces_at_a_time(std::size_t tets, std::size_t pieces, std::uint64_t memory);
 
 }  // namespace tetmend::pieces

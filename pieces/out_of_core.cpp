@@ -54,6 +54,7 @@ class FileRun {
   bool read();
   void tell_rest(std::vector<std::string> notes);
   Wanted wanted() const;
+  void work_side_by_side();
   void measure_before();
   void hold_surface();
   void lock();
@@ -99,7 +100,6 @@ class FileRun {
   bool holds_more_ = false;
   bool is_told_ = false;
   std::vector<std::string> told_;  // of what is lost
-  QualityIndicators now_;
   Measured before_;
   face::Held held_;
   std::optional<SurfaceChange> unchanged_surface_;
@@ -114,17 +114,13 @@ Result FileRun::run() {
   task.fault = files_.fault;
   task.trace = &trace_;
   task.check_operators = options_.check_operators;
-  task.watch = [&](Run& run) {
-    run.set_listener(&watcher_);
-    run.set_cancel_flag(options_.cancel);
-    watcher_.watch(&run, now_);
-  };
-  task.unwatch = [&] { watcher_.watch(nullptr, now_); };
+  task.watcher = &watcher_;
   watcher_.begin(Stage::building);
   if (!files_.checkpoint.empty()) lock();
   if (go_on()) {
     const SavedRun found = checkpoint_.load();
     steps_.emplace(*mesh_, division_, task, found.run);
+    work_side_by_side();
     if (!plan_.surface.is_fixed()) {
       steps_->hold_surface(plan_.surface.envelope_options(), checkpoint_.load_surface(found));
       unchanged_surface_ = steps_->surface()->unchanged();
@@ -135,6 +131,7 @@ Result FileRun::run() {
       if (!read()) return improve_whole();
     }
     steps_.emplace(*mesh_, division_, task);
+    work_side_by_side();
     trace_.locate(*mesh_);
     measure_before();
     hold_surface();
@@ -303,8 +300,11 @@ bool FileRun::go_on() {
   holds_more_ = found.holds_more;
   before_ = found.before;
   result_.before = before_.figures.statistics;
+  tets_ = result_.before.tets;
   for (const StepRecord& record : found.run.records) result_.passes.push_back(to_pass(record));
-  if (!found.run.records.empty()) now_ = found.run.records.back().after.indicators;
+  if (!found.run.records.empty()) {
+    watcher_.watch(nullptr, found.run.records.back().after.indicators);
+  }
   mesh_.emplace(*shelf_, ranks_, found.mesh);
   mesh_->take_from(checkpoint_.pieces_of(found));
   if (trace_.is_wanted() && trace_.round() <= found.run.records.size()) trace_.skip(ranks_);
@@ -327,6 +327,12 @@ void FileRun::save() const {
   checkpoint_.save(run);
 }
 
+/// As far as the memory that was asked for has room.
+void FileRun::work_side_by_side() {
+  steps_->set_side_by_side(
+      pieces_at_a_time(static_cast<std::size_t>(tets_), division_.pieces, files_.memory));
+}
+
 void FileRun::work() {
   watcher_.begin(Stage::improving);
   const Stopwatch watch(result_.improving);
@@ -337,7 +343,7 @@ void FileRun::work() {
     return watcher_.stopped() || (options_.cancel != nullptr && options_.cancel->load());
   });
   steps_->set_listener([&](const StepRecord& record) {
-    now_ = record.after.indicators;
+    watcher_.watch(nullptr, record.after.indicators);
     result_.passes.push_back(to_pass(record));
     if (files_.checkpoint.empty() || steps_->stopped()) return;
     save();

@@ -42,6 +42,15 @@ Figures sum(const std::vector<PartFigures>& mine, Ranks& ranks,
   return all;
 }
 
+/// Precondition: both have the same bins.
+void add(const RulerHistograms& counts, RulerHistograms& to) {
+  for (std::size_t r = 0; r < to.size(); ++r) {
+    for (std::size_t bin = 0; bin < to[r].counts.size(); ++bin) {
+      to[r].counts[bin] += counts[r].counts[bin];
+    }
+  }
+}
+
 /// Over all ranks.
 void add_up(RulerHistograms& counts, Ranks& ranks) {
   std::vector<std::int64_t> all;
@@ -182,10 +191,13 @@ std::string PieceRun::hold_surface(const EnvelopeOptions& options, Shelf* next) 
   divide_first(next);
   std::vector<std::pair<std::uint64_t, SurfaceShare>> mine;
   const DivisionState& state = mesh_.state();
-  for (const std::size_t part : mesh_.own()) {
-    mine.emplace_back(part, share_of_input(mesh_.gathered(part), state.parting,
-                                           static_cast<std::uint32_t>(part)));
-  }
+  each_own([&](std::size_t part) -> SideBySide::Use {
+    SurfaceShare share =
+        share_of_input(mesh_.gathered(part), state.parting, static_cast<std::uint32_t>(part));
+    return [&mine, part, share = std::move(share)]() mutable {
+      mine.emplace_back(part, std::move(share));
+    };
+  });
   const std::vector<SurfaceShare> shares = share_surface(std::move(mine), mesh_.ranks());
   surface_ = std::make_unique<HeldSurface>(shares, options, state.low, state.high);
   std::string saved;
@@ -209,6 +221,17 @@ Piece PieceRun::gathered(std::size_t part) const {
   return piece;
 }
 
+void PieceRun::set_side_by_side(std::size_t most) {
+  side_by_side_ = SideBySide(most);
+  mesh_.set_side_by_side(most);
+}
+
+/// Of this rank. See SideBySide.
+void PieceRun::each_own(const std::function<SideBySide::Use(std::size_t part)>& make) const {
+  const std::vector<std::size_t>& own = mesh_.own();
+  side_by_side_.each(own.size(), [&](std::size_t i) { return make(own[i]); });
+}
+
 /// Nothing where it is not wanted.
 std::optional<Survey> PieceRun::survey_for(const Wanted& wanted) {
   if (!wanted.rulers) return std::nullopt;
@@ -225,14 +248,20 @@ Measured PieceRun::measure_before(const Wanted& wanted, Shelf* next) {
   std::optional<Survey> survey = survey_for(wanted);
   std::vector<PartFigures> mine;
   Bounds bounds = Bounds::of_goal(options_.standard);
-  for (const std::size_t part : mesh_.own()) {
+  each_own([&](std::size_t part) -> SideBySide::Use {
     const Piece piece = mesh_.gathered(part);
     const Parting& parting = mesh_.state().parting;
     const auto number = static_cast<std::uint32_t>(part);
-    mine.push_back({part, measure_own(piece, parting, number, options_.standard,
-                                      survey ? &*survey : nullptr, options_.wanted())});
-    bounds.widen(bounds_of_own(piece, parting, number, options_.standard));
-  }
+    std::optional<Survey> found = survey_for(wanted);
+    const Figures figures = measure_own(piece, parting, number, options_.standard,
+                                        found ? &*found : nullptr, options_.wanted());
+    const Bounds own = bounds_of_own(piece, parting, number, options_.standard);
+    return [&, part, figures, own, found = std::move(found)]() mutable {
+      mine.push_back({part, figures});
+      bounds.widen(own);
+      if (survey) survey->add(*std::move(found));
+    };
+  });
   agree_on_bounds(bounds);
   Measured measured;
   std::vector<std::uint64_t> tets;
@@ -265,10 +294,11 @@ void PieceRun::agree_on_bounds(const Bounds& mine) {
 
 void PieceRun::find_bounds() {
   Bounds bounds = Bounds::of_goal(options_.standard);
-  for (const std::size_t part : mesh_.own()) {
-    bounds.widen(bounds_of_own(mesh_.gathered(part), mesh_.state().parting,
-                               static_cast<std::uint32_t>(part), options_.standard));
-  }
+  each_own([&](std::size_t part) -> SideBySide::Use {
+    const Bounds own = bounds_of_own(mesh_.gathered(part), mesh_.state().parting,
+                                     static_cast<std::uint32_t>(part), options_.standard);
+    return [&bounds, own] { bounds.widen(own); };
+  });
   agree_on_bounds(bounds);
 }
 
@@ -287,12 +317,16 @@ void PieceRun::run() {
           mesh_, {round(), record->is_zones, rings_of(*record), options_.standard});
     }
     std::vector<PartOutcome> mine;
-    for (const std::size_t part : mesh_.own()) {
-      mine.push_back(work_on_part(part, *record));
+    each_own([&](std::size_t part) -> SideBySide::Use {
+      WorkedPart worked = work_on(part, *record);
       mesh_.remove_gathered(part);
-      if (mine.size() == 1) continue;  // one list of worst tets is enough
-      mine.front().standing.worst.add(std::exchange(mine.back().standing.worst, {}));
-    }
+      return [&, worked = std::move(worked)]() mutable {
+        if (worked.time) times_.push_back(*worked.time);
+        mine.push_back(std::move(worked.outcome));
+        if (mine.size() == 1) return;  // one list of worst tets is enough
+        mine.front().standing.worst.add(std::exchange(mine.back().standing.worst, {}));
+      };
+    });
     std::vector<PartOutcome> all = share(std::move(mine));
     record->seconds = seconds_since(start);
     agree_on_stop();
@@ -357,24 +391,32 @@ bool PieceRun::is_active(std::size_t part, const StepRecord& record) const {
 }
 
 PartOutcome PieceRun::work_on_part(std::size_t part, const StepRecord& record) {
+  WorkedPart worked = work_on(part, record);
+  if (worked.time) times_.push_back(*worked.time);
+  return std::move(worked.outcome);
+}
+
+/// Other parts may be worked on at the same time.
+PieceRun::WorkedPart PieceRun::work_on(std::size_t part, const StepRecord& record) {
   const Piece gathered = this->gathered(part);
   const Parting& parting = mesh_.state().parting;
   const auto number = static_cast<std::uint32_t>(part);
+  WorkedPart worked;
   TaskResult result;
   if (!is_active(part, record) || is_to_stop() || gathered.tets.empty()) {
     result.piece = own_part(gathered, parting, number);
   } else {
     const auto start = std::chrono::steady_clock::now();
     try {
-      result =
-          work_on(gathered, parting, number, options_, limits_of(part, record), surface_.get());
+      result = pieces::work_on(gathered, parting, number, options_, limits_of(part, record),
+                               surface_.get());
     } catch (const contract::Breach& breach) {
       throw Error(fmt::format("round {}, piece {}: {}", round(), part, breach.what()));
     }
-    times_.push_back({static_cast<std::uint32_t>(state_.records.size()), number,
-                      gathered.tets.size(), seconds_since(start)});
+    worked.time = {static_cast<std::uint32_t>(state_.records.size()), number, gathered.tets.size(),
+                   seconds_since(start)};
   }
-  PartOutcome outcome;
+  PartOutcome& outcome = worked.outcome;
   outcome.part = part;
   outcome.added = result.added;
   outcome.stayed = result.went_back;
@@ -387,7 +429,7 @@ PartOutcome PieceRun::work_on_part(std::size_t part, const StepRecord& record) {
   outcome.deferred = result.deferred;
   if (options_.fault) options_.fault(part, result.piece);
   mesh_.store(part, result.piece);
-  return outcome;
+  return worked;
 }
 
 /// Those of all ranks.
@@ -489,23 +531,35 @@ Measured PieceRun::measure_after(const Wanted& wanted, const Measured& before, S
   mesh_.divide(division_.pieces, division_.divisions, next);
   std::optional<Survey> survey = survey_for(wanted);
   Measured measured;
-  if (wanted.histograms && before.rulers) measured.histograms = bins_for(*before.rulers);
+  std::optional<RulerHistograms> no_counts;
+  if (wanted.histograms && before.rulers) no_counts = bins_for(*before.rulers);
+  measured.histograms = no_counts;
   std::vector<PartFigures> mine;
   std::vector<std::pair<std::uint64_t, SurfaceShare>> shares;
-  for (const std::size_t part : mesh_.own()) {
+  each_own([&](std::size_t part) -> SideBySide::Use {
     Piece gathered = this->gathered(part);
     if (surface_) surface_->label_points(gathered, mesh_.first_added());
     const auto number = static_cast<std::uint32_t>(part);
     const Parting& parting = mesh_.state().parting;
-    mine.push_back(
-        {part, measure_own(gathered, parting, number, options_.standard,
-                           survey ? &*survey : nullptr, options_.wanted(), surface_.get())});
-    if (measured.histograms) count_own(gathered, parting, number, *measured.histograms);
+    std::optional<Survey> found = survey_for(wanted);
+    const Figures figures =
+        measure_own(gathered, parting, number, options_.standard, found ? &*found : nullptr,
+                    options_.wanted(), surface_.get());
+    std::optional<RulerHistograms> counts = no_counts;
+    if (counts) count_own(gathered, parting, number, *counts);
     const Piece own = own_part(gathered, parting, number);
-    if (surface_) shares.emplace_back(part, share_of(own));
+    std::optional<SurfaceShare> share;
+    if (surface_) share = share_of(own);
     mesh_.store(part, own);
     mesh_.remove_gathered(part);
-  }
+    return [&, part, figures, found = std::move(found), counts = std::move(counts),
+            share = std::move(share)]() mutable {
+      mine.push_back({part, figures});
+      if (survey) survey->add(*std::move(found));
+      if (counts) add(*counts, *measured.histograms);
+      if (share) shares.emplace_back(part, *std::move(share));
+    };
+  });
   if (surface_) {
     surface_change_ = surface_->measure(share_surface(std::move(shares), mesh_.ranks()));
   }

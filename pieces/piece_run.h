@@ -3,6 +3,7 @@
 // the worst tets of all.
 #pragma once
 
+#include <atomic>
 #include <chrono>
 #include <cstdint>
 #include <functional>
@@ -17,6 +18,7 @@
 #include "pieces/figures.h"
 #include "pieces/held_surface.h"
 #include "pieces/piece_task.h"
+#include "pieces/side_by_side.h"
 #include "pieces/standing.h"
 
 namespace tetmend::pieces {
@@ -106,8 +108,10 @@ class PieceRun {
       : mesh_(mesh), division_(division), options_(options), state_(std::move(state)) {}
 
   void set_limits(const RunLimits& limits);
-  /// Asked before each piece; true ends the run, with what is reached.
+  /// Asked before each piece, by any thread; true ends the run, with what is reached.
   void set_stop(std::function<bool()> stop) { stop_ = std::move(stop); }
+  /// How many pieces are worked on and measured at a time; one, unless that is set. Cannot show.
+  void set_side_by_side(std::size_t most);
   /// Told after each step, when its pieces are stored; also after one that was stopped.
   void set_listener(std::function<void(const StepRecord&)> listener) {
     listener_ = std::move(listener);
@@ -156,6 +160,12 @@ class PieceRun {
   bool out_of_time() const { return out_of_time_; }
 
  private:
+  struct WorkedPart {
+    PartOutcome outcome;
+    std::optional<PartTime> time;  ///< none: nothing was to be done
+  };
+  WorkedPart work_on(std::size_t part, const StepRecord& record);
+  void each_own(const std::function<SideBySide::Use(std::size_t part)>& make) const;
   void divide_first(Shelf* next);
   std::optional<Survey> survey_for(const Wanted& wanted);
   void agree_on_bounds(const Bounds& mine);
@@ -184,8 +194,9 @@ class PieceRun {
   std::vector<PartTime> times_;
   std::unique_ptr<const HeldSurface> surface_;
   std::optional<SurfaceChange> surface_change_;
-  bool stopped_ = false;
-  bool out_of_time_ = false;
+  SideBySide side_by_side_;
+  std::atomic<bool> stopped_ = false;
+  std::atomic<bool> out_of_time_ = false;
 };
 
 /// Fewer bad tets, or a better worst one.

@@ -234,23 +234,17 @@ void Task::run_schedule(const TaskLimits& limits) {
   if (limits.trace) run.set_trace(limits.trace(mesh_));
   contract::Inspector inspector;
   if (options_.check_operators) run.set_inspector(&inspector);
-  if (options_.watch) options_.watch(run);
-  try {
-    improve(run, options_.schedule, options_.settings.of(limits.aim));
-    // Where the fixed surface holds bad tets, it moves. What is stuck at a border is for another
-    // division or a zone: costly rounds would only refine around it.
-    if (mesh_.surface_guard() != nullptr && !run.cancelled()) {
-      run.set_standard(options_.standard);
-      ScheduleSettings settings;
-      if (!limits.is_zone || options_.wanted() != nullptr) settings.emplace_back("max_rounds", "0");
-      if (run.indicators().n_bad > 0) improve(run, Schedule::builtin("surface"), settings);
-    }
-  } catch (...) {
-    if (options_.unwatch) options_.unwatch();
-    throw;
+  const face::WatchedRun watched(options_.watcher, run);
+  improve(run, options_.schedule, options_.settings.of(limits.aim));
+  // Where the fixed surface holds bad tets, it moves. What is stuck at a border is for another
+  // division or a zone: costly rounds would only refine around it.
+  if (mesh_.surface_guard() != nullptr && !run.cancelled()) {
+    run.set_standard(options_.standard);
+    ScheduleSettings settings;
+    if (!limits.is_zone || options_.wanted() != nullptr) settings.emplace_back("max_rounds", "0");
+    if (run.indicators().n_bad > 0) improve(run, Schedule::builtin("surface"), settings);
   }
   run.set_standard(options_.standard);  // a script may aim higher for a while, and be stopped then
-  if (options_.unwatch) options_.unwatch();
   result_.stopped = run.cancelled();
   for (const PassRecord& record : run.records) {
     for (std::size_t i = 0; i < kVerdictCount; ++i) result_.verdicts[i] += record.verdicts[i];

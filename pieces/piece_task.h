@@ -10,6 +10,7 @@
 #include <memory>
 #include <optional>
 
+#include "face/watcher.h"
 #include "kernel/bounds.h"
 #include "kernel/size_field.h"
 #include "pieces/held_surface.h"
@@ -48,11 +49,9 @@ struct TaskOptions {
   const AimSettings& settings;
   Standard standard;
   std::shared_ptr<const SizeField> size_field = {};  ///< null: lengths are free
-  /// Called before and after the schedule, so that it can be watched and stopped.
-  std::function<void(Run&)> watch = {};
-  std::function<void()> unwatch = {};
-  PieceTrace* trace = nullptr;   ///< null: nobody wants one
-  bool check_operators = false;  ///< Options::check_operators
+  face::Watcher* watcher = nullptr;                  ///< of all pieces; null: nobody watches
+  PieceTrace* trace = nullptr;                       ///< null: nobody wants one
+  bool check_operators = false;                      ///< Options::check_operators
   /// Changes a piece before it is stored, as a fault would: for tests of what notices that.
   std::function<void(std::size_t number, Piece& piece)> fault = {};
 

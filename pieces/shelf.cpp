@@ -25,21 +25,32 @@ namespace {
 
 }  // namespace
 
+const MemoryShelf::Parts* MemoryShelf::find(const std::string& name) const {
+  const std::lock_guard lock(mutex_);
+  const auto found = bytes_.find(name);
+  return found != bytes_.end() ? &found->second : nullptr;
+}
+
+MemoryShelf::Parts& MemoryShelf::make(const std::string& name) {
+  const std::lock_guard lock(mutex_);
+  return bytes_[name];
+}
+
 void MemoryShelf::append(const std::string& name, std::string bytes) {
-  bytes_[name].push_back(std::move(bytes));
+  make(name).push_back(std::move(bytes));
 }
 
 void MemoryShelf::put(const std::string& name, std::string bytes) {
-  std::vector<std::string>& parts = bytes_[name];
+  Parts& parts = make(name);
   parts.clear();
   parts.push_back(std::move(bytes));
 }
 
 void MemoryShelf::visit(const std::string& name,
                         const std::function<void(std::string_view)>& use) const {
-  const auto found = bytes_.find(name);
-  if (found == bytes_.end()) return;
-  for (const std::string& part : found->second) use(part);
+  const Parts* const parts = find(name);
+  if (parts == nullptr) return;
+  for (const std::string& part : *parts) use(part);
 }
 
 std::string MemoryShelf::read(const std::string& name) const {
@@ -49,12 +60,12 @@ std::string MemoryShelf::read(const std::string& name) const {
 std::string MemoryShelf::read(const std::string& name, std::uint64_t begin,
                               std::uint64_t size) const {
   std::string bytes;
-  const auto found = bytes_.find(name);
-  if (found == bytes_.end()) return bytes;
+  const Parts* const parts = find(name);
+  if (parts == nullptr) return bytes;
   std::uint64_t total = 0;
-  for (const std::string& part : found->second) total += part.size();
+  for (const std::string& part : *parts) total += part.size();
   bytes.reserve(std::min(size, total - std::min(total, begin)));
-  for (const std::string& part : found->second) {
+  for (const std::string& part : *parts) {
     if (begin < part.size()) {
       bytes.append(part, begin, size - bytes.size());
       begin = part.size();
@@ -65,10 +76,13 @@ std::string MemoryShelf::read(const std::string& name, std::uint64_t begin,
 }
 
 void MemoryShelf::remove(const std::string& name) {
-  bytes_.erase(name);
+  std::map<std::string, Parts>::node_type gone;  // freed without the lock
+  const std::lock_guard lock(mutex_);
+  gone = bytes_.extract(name);
 }
 
 void MemoryShelf::rename(const std::string& from, const std::string& to) {
+  const std::lock_guard lock(mutex_);
   auto node = bytes_.extract(from);
   if (node.empty()) return;
   bytes_.erase(to);

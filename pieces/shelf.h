@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <mutex>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -14,7 +15,7 @@
 
 namespace tetmend::pieces {
 
-/// Bytes by name.
+/// Bytes by name. Several threads may use shelves but SealedShelf at a time, each other names.
 class Shelf {
  public:
   virtual ~Shelf() = default;
@@ -54,7 +55,12 @@ class MemoryShelf final : public Shelf {
 
  private:
   /// Parts as they came: one string that grows would have room for twice as much.
-  std::map<std::string, std::vector<std::string>> bytes_;
+  using Parts = std::vector<std::string>;
+  const Parts* find(const std::string& name) const;
+  Parts& make(const std::string& name);
+
+  mutable std::mutex mutex_;  // of the map; who has a name has its parts
+  std::map<std::string, Parts> bytes_;
 };
 
 /// Each name is a file. For a run that ends with the process: see SealedShelf for others.

@@ -298,6 +298,10 @@ TEST_CASE("memory decides on the number of pieces, and enough of it is one piece
   CHECK(pieces::pieces_for(1'000'000, 1'000'000'000) == 1);
   CHECK(pieces::pieces_for(10'000'000, 200'000'000) == 9);
   CHECK(pieces::pieces_for(1'000'000, 1) == 100);
+  CHECK(pieces::pieces_at_a_time(1'000'000, 10, 0) == 1);
+  CHECK(pieces::pieces_at_a_time(1'000'000, 10, 40'000'000 + 3 * 13'000'000) == 3);
+  CHECK(pieces::pieces_at_a_time(1'000'000, 10, 1'000'000'000) == 10);
+  CHECK(pieces::pieces_at_a_time(3, 10, 1'000'000'000) == 10);
   const Folder folder;
   const auto in = folder.path() / "in.meshb";
   const auto out = folder.path() / "out.meshb";
