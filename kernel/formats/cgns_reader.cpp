@@ -51,9 +51,9 @@ class CgnsReader {
     read_sections();
     read_conditions();
     add_section_sets();
-    for (auto* sets : {&volumes_, &surfaces_, &points_}) number(*sets);
+    for (auto* sets : {&volumes_, &surfaces_, &edges_, &points_}) number(*sets);
     label_elements();
-    for (auto* sets : {&surfaces_, &points_})
+    for (auto* sets : {&surfaces_, &edges_, &points_})
       volumes_.insert(volumes_.end(), sets->begin(), sets->end());
     if (!volumes_.empty()) add_groups(mesh_, places_, homes_, volumes_);
     read_solutions();
@@ -249,7 +249,8 @@ class CgnsReader {
       if (*place != kNoPlace) (is_of_points ? set.points : set.elements).push_back(*place);
     }
     note_lost_members(set, lost);
-    if (lost < members.size()) (is_of_points ? points_ : surfaces_).push_back(std::move(set));
+    if (lost == members.size()) return;
+    (is_of_points ? points_ : faces_or_edges(set)).push_back(std::move(set));
   }
 
   void note_lost_members(const ElementSet& set, std::size_t lost) {
@@ -278,8 +279,10 @@ class CgnsReader {
   /// A section of volumes is a set. So is one of lower dimension where no condition has an element of it.
   void add_section_sets() {
     std::set<std::uint32_t> with_conditions;
-    for (const ElementSet& set : surfaces_) {
-      for (const std::uint32_t place : set.elements) with_conditions.insert(homes_[place]);
+    for (const auto* sets : {&surfaces_, &edges_}) {
+      for (const ElementSet& set : *sets) {
+        for (const std::uint32_t place : set.elements) with_conditions.insert(homes_[place]);
+      }
     }
     for (std::uint32_t s = 0; s < sections_.size(); ++s) {
       const auto& places = sections_[s].places;
@@ -290,8 +293,13 @@ class CgnsReader {
       set.name = sections_[s].name;
       set.elements = places;
       const bool is_volume = places_[set.elements[0]].of().dimension == 3;
-      (is_volume ? volumes_ : surfaces_).push_back(std::move(set));
+      (is_volume ? volumes_ : faces_or_edges(set)).push_back(std::move(set));
     }
+  }
+
+  /// Which have numbers of their own.
+  std::vector<ElementSet>& faces_or_edges(const ElementSet& set) {
+    return places_[set.elements[0]].of().dimension == 1 ? edges_ : surfaces_;
   }
 
   static void number(std::vector<ElementSet>& sets) {
@@ -305,7 +313,7 @@ class CgnsReader {
   }
 
   void label_elements() {
-    for (auto* sets : {&surfaces_, &volumes_}) {
+    for (auto* sets : {&surfaces_, &edges_, &volumes_}) {
       for (auto set = sets->rbegin(); set != sets->rend(); ++set) {
         for (const std::uint32_t place : set->elements)
           label_at(mesh_, places_[place]) = static_cast<Label>(set->number);
@@ -378,7 +386,7 @@ class CgnsReader {
   std::vector<CgnsSection> sections_;  // in the order of their elements
   std::vector<ElementPlace> places_;
   std::vector<std::uint32_t> homes_;  // sections of these
-  std::vector<ElementSet> volumes_, surfaces_, points_;
+  std::vector<ElementSet> volumes_, surfaces_, edges_, points_;
 };
 
 }  // namespace

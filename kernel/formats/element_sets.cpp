@@ -94,6 +94,18 @@ Label& label_at(MeshData& mesh, ElementPlace place) {
   }
 }
 
+bool is_turned_like(std::span<const std::uint32_t> a, std::span<const std::uint32_t> b) {
+  if (a.size() != b.size() || a.empty()) return false;
+  const auto at = std::find(b.begin(), b.end(), a[0]);
+  return std::equal(at, b.end(), a.begin()) &&
+         std::equal(b.begin(), at, a.end() - (at - b.begin()));
+}
+
+bool are_different(std::vector<std::uint32_t> members) {
+  std::sort(members.begin(), members.end());
+  return std::adjacent_find(members.begin(), members.end()) == members.end();
+}
+
 std::uint32_t FacesOnce::add(const ElementRow& row, ElementSorter& sorter, const MeshData& mesh,
                              std::vector<ElementPlace>& elements) {
   std::array<std::uint32_t, 4> corners{};

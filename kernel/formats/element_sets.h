@@ -32,6 +32,10 @@ Label& label_at(MeshData& mesh, ElementPlace place);
 /// Likewise its vertices.
 std::span<const std::uint32_t> vertices_at(const MeshData& mesh, ElementPlace place);
 
+/// Is one list the other from a later corner on? So faces have the same sides.
+bool is_turned_like(std::span<const std::uint32_t> a, std::span<const std::uint32_t> b);
+bool are_different(std::vector<std::uint32_t> members);
+
 /// Faces that several sets of a file name, each once.
 class FacesOnce {
  public:

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -202,8 +203,12 @@ std::pair<std::size_t, std::string> ExodusPlan::new_labels() const {
   const auto shells = numbers_of_file(mesh_.data(), kShellNumbers);
   std::size_t changed = 0;
   std::string first;
+  std::optional<std::int64_t> of_none;  // sides and shells without a label should be alike
   const auto look = [&](const ElementList& list, Label label, std::int64_t number) {
-    if (label == 0 || number == label) return;
+    const bool is_split =
+        label == 0 && list.kind.dimension == 2 && of_none.value_or(number) != number;
+    if (label == 0 && list.kind.dimension == 2) of_none = number;
+    if (number == label || (label == 0 && !is_split)) return;
     if (changed++ == 0)
       first = fmt::format("{} of kind '{}' becomes {}", label, list.kind.name, number);
   };

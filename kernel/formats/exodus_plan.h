@@ -64,7 +64,7 @@ class ExodusPlan {
   std::vector<ElementSet> node_sets;
   Sets side_sets, element_sets;
 
-  /// Labels, but for 0, that are read again as others: how many, and the first as "1 of kind 'edge'
+  /// Labels that are read again as others, 0 only where it becomes several: how many, and the first as "1 of kind 'edge'
   /// becomes 3".
   std::pair<std::size_t, std::string> new_labels() const;
 

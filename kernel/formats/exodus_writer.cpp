@@ -328,7 +328,8 @@ void note_rounded(const std::vector<DataArray>& arrays, std::vector<std::string>
   }
 }
 
-/// Only where elements of several kinds share one is it worth to plan the file.
+/// Only where elements of several kinds may share one is it worth to plan the file: sides and shells
+/// are both triangles.
 void note_new_labels(const MeshData& mesh, std::vector<std::string>& notes) {
   const MeshView view(mesh);
   const ElementLists lists(view);
@@ -336,6 +337,7 @@ void note_new_labels(const MeshData& mesh, std::vector<std::string>& notes) {
   bool is_shared = false;
   for (std::size_t k = 0; k < lists.all().size(); ++k) {
     const ElementList& list = lists.all()[k];
+    is_shared = is_shared || list.kind.dimension == 2;
     std::optional<Label> last;
     for (std::size_t i = 0; i < list.count; ++i) {
       const Label label = list.label(i);

@@ -26,7 +26,9 @@ enum FebioPiece : char {
   febio_list = 'L',       ///< a set of elements with tets, as a list: the number of its group
   febio_tags = 'G',       ///< likewise, with an element of XML for each; then the name of that
   febio_node_list = 'l',  ///< the same for sets of nodes
-  febio_node_tags = 'g'
+  febio_node_tags = 'g',
+  febio_surface = 'F',       ///< the facets of a surface: the number of its group
+  febio_label_surface = 'f'  ///< likewise: their label
 };
 
 struct FebioType {

@@ -2,7 +2,9 @@
 // Reads input files of FEBio: sets and what names nodes, and what stands between as text.
 #include <algorithm>
 #include <array>
+#include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -20,6 +22,7 @@
 #include "kernel/formats/inp_sets.h"
 #include "kernel/formats/input_file.h"
 #include "kernel/formats/nastran_card.h"
+#include "kernel/second_order.h"
 
 namespace tetmend::formats {
 namespace {
@@ -31,8 +34,9 @@ class FebioReader : FebioMesh {
   MeshData read() {
     for (const pugi::xml_node node : model_.children()) read_set(node);
     pin_rest();
-    remarks_ = pins_.require_points(std::array{&file_}, tags_, "kinds of elements", mesh_);
     finish_sets();
+    finish_surfaces();
+    remarks_ = pins_.require_points(std::array{&file_}, tags_, "kinds of elements", mesh_);
     cut();
     mesh_.variant = kFebio;
     return std::move(mesh_);
@@ -53,10 +57,7 @@ class FebioReader : FebioMesh {
       }
       read_node_set(node, set, members.size() - set.points.size());
     } else if (name == "Surface") {
-      Label label = 0;
-      if (to_label(inp_key(set.name), label)) set.name.clear();
-      for (const pugi::xml_node facet : node.children()) add_facet(facet, set, label);
-      if (set.name.empty()) return;
+      return read_surface(node, std::move(set));
     } else if (name == "ElementSet") {
       read_element_set(node, set);
     } else if (name != "Nodes" && name != "Elements") {
@@ -82,10 +83,30 @@ class FebioReader : FebioMesh {
     return found;
   }
 
-  void add_facet(pugi::xml_node facet, ElementSet& set, Label label) {
+  void read_surface(pugi::xml_node node, ElementSet set) {
+    Surface surface{.node = node};
+    const bool is_label = to_label(inp_key(set.name), surface.label);
+    for (const pugi::xml_node facet : node.children()) {
+      if (facet.type() != pugi::node_element) continue;
+      surface.is_plain = add_facet(facet, set, surface.label) && surface.is_plain;
+    }
+    surface.count = set.elements.size();
+    surface.is_plain = surface.is_plain && are_different(set.elements);
+    if (!is_label && !set.name.empty() && !set.elements.empty()) {
+      surface.set = sets_.size();
+      sets_.push_back(std::move(set));
+    } else if (is_label) {
+      surface_labels_.push_back(surface.label);
+    } else {
+      surface.is_plain = false;
+    }
+    surfaces_.push_back(surface);
+  }
+
+  /// False if it says more than the element that is made of it.
+  bool add_facet(pugi::xml_node facet, ElementSet& set, Label label) {
     const ElementKind* kind = febio_kind(facet.name());
-    pin_words(facet, "Surface");
-    if (kind == nullptr || kind->dimension != 2) return;
+    if (kind == nullptr || kind->dimension != 2) return false;
     ElementRow row;
     row.kind = element_kind(kind->corners == 3 ? vtk_triangle : vtk_quad);
     const auto numbers = words(facet.child_value());
@@ -98,6 +119,59 @@ class FebioReader : FebioMesh {
     set.elements.push_back(faces_.add(row, sorter_, mesh_, elements_));
     if (elements_.size() > before && is_last_asked_for(question_, mesh_, row.kind->vtk_type))
       question_->place = file_.line_place(place_of(facet));
+    const bool has_id_alone =
+        !facet.first_attribute() || (facet.first_attribute() == facet.last_attribute() &&
+                                     std::string_view(facet.first_attribute().name()) == "id");
+    return has_id_alone && has_mid_nodes_of_mesh(row, kind->width, numbers) &&
+           is_turned_like(vertices_at(mesh_, elements_[set.elements.back()]),
+                          std::span(row.vertices).first(kind->corners));
+  }
+
+  /// The nodes between its corners are those that tets have there.
+  bool has_mid_nodes_of_mesh(const ElementRow& row, std::size_t width,
+                             const std::vector<std::string_view>& numbers) {
+    if (!mid_nodes_) mid_nodes_.emplace(mid_nodes_of_tets());
+    const std::size_t corners = row.kind->corners;
+    if (mid_nodes_->is_empty() || width == corners)
+      return mid_nodes_->is_empty() == (width == corners);
+    for (std::size_t k = 0; k < corners; ++k) {
+      std::int64_t number = 0;
+      const std::uint32_t node = mid_nodes_->of(row.vertices[k], row.vertices[(k + 1) % corners]);
+      const bool is_node = node != kNoMidNode && nastran_integer(numbers[corners + k], number);
+      if (!is_node || tags_.find(number) != node) return false;
+    }
+    return true;
+  }
+  /// None where tets of first order are beside them.
+  std::vector<std::array<std::uint32_t, 3>> mid_nodes_of_tets() const {
+    std::vector<std::array<std::uint32_t, 3>> nodes;
+    for (const OtherElements& others : mesh_.other_elements) {
+      if (others.vtk_type != vtk_tet10 || !mesh_.tets.empty()) continue;
+      for (std::size_t i = 0; i < others.vertices.size(); i += others.vertex_count) {
+        const std::uint32_t* v = others.vertices.data() + i;
+        for (std::size_t e = 0; e < kMidNodeEdges.size(); ++e)
+          nodes.push_back({v[kMidNodeEdges[e][0]], v[kMidNodeEdges[e][1]], v[4 + e]});
+      }
+    }
+    return nodes;
+  }
+
+  /// Those that say no more than the mesh are written anew; the points of others stay.
+  void finish_surfaces() {
+    std::map<Label, std::size_t> faces_with;
+    for (const ElementPlace& place : elements_) {
+      if (place.of().dimension == 2) ++faces_with[label_at(mesh_, place)];
+    }
+    for (const Surface& surface : surfaces_) {
+      const bool is_whole = surface.set != kNoSet || faces_with[surface.label] == surface.count;
+      if (surface.is_plain && is_whole && !has_data_of_facets_) {
+        const bool is_group = surface.set != kNoSet;
+        replace(surface.node, is_group ? febio_surface : febio_label_surface, surface.set,
+                surface.label);
+        continue;
+      }
+      for (const pugi::xml_node facet : surface.node.children()) pin_words(facet, "Surface");
+    }
   }
 
   /// Where it fills a volume it is written anew; other members stay.
@@ -143,7 +217,7 @@ class FebioReader : FebioMesh {
   }
 
   void finish_sets() {
-    number_sets(sets_);
+    number_sets(sets_, surface_labels_);
     if (sets_.empty()) return;
     for (const ElementSet& set : sets_) {  // a triangle has the label of its first surface
       for (const std::uint32_t element : set.elements) {
@@ -165,6 +239,7 @@ class FebioReader : FebioMesh {
       const std::string_view name = node.name();
       if (name == "node" && node.attribute("id")) pin_words_of_id(node);
       if (febio_kind(name) != nullptr) pin_words(node, name);
+      has_data_of_facets_ = has_data_of_facets_ || name == "SurfaceData";
       const bool names_elements = name == "ElementData" || (name == "elem" && node.attribute("id"));
       if (names_elements && node != model_ && !names_elements_) {
         names_elements_ = true;
@@ -202,7 +277,20 @@ class FebioReader : FebioMesh {
     mesh_.deck.push_back(char{febio_text} + std::string(at, file_.end()));
   }
 
+  /// As it stands in the model.
+  struct Surface {
+    pugi::xml_node node;
+    std::size_t set = kNoSet;  ///< kNoSet: its facets have a label
+    Label label = 0;
+    std::size_t count = 0;  ///< of facets
+    bool is_plain = true;   ///< it says no more than the elements that are made of it
+  };
+
   FacesOnce faces_;
+  std::vector<Surface> surfaces_;
+  std::vector<std::int64_t> surface_labels_;
+  std::optional<MidNodes> mid_nodes_;  // of tets
+  bool has_data_of_facets_ = false;    // by their order
   bool names_elements_ = false;
   std::optional<LoosePoints> loose_points_;
   std::string remarks_;

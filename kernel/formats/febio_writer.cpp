@@ -86,13 +86,13 @@ class FebioWriter {
     for (std::uint32_t i = 0; i < blocks.size(); ++i) points_of_block_[blocks[i]].push_back(i);
   }
 
-  /// Volumes by label, and points, all in one block.
+  /// Volumes and faces by label, and points, all in one block.
   void sort_mesh() {
     for (std::uint32_t k = 0; k < lists_.all().size(); ++k) {
       const ElementList& list = lists_.all()[k];
-      for (std::uint32_t i = 0; i < list.count && list.kind.dimension == 3; ++i) {
-        of_label_[list.label(i)].push_back({k, i});
-      }
+      if (list.kind.dimension < 2) continue;
+      auto& of_label = list.kind.dimension == 3 ? of_label_ : faces_of_label_;
+      for (std::uint32_t i = 0; i < list.count; ++i) of_label[list.label(i)].push_back({k, i});
     }
     for (std::uint32_t i = 0; i < mesh_.point_count(); ++i) points_of_block_[0].push_back(i);
     for (std::size_t g = 0; g < members_.size(); ++g) {
@@ -121,6 +121,10 @@ class FebioWriter {
       case febio_node_list:
       case febio_node_tags:
         write_members(piece);
+        break;
+      case febio_surface:
+      case febio_label_surface:
+        write_facets(piece[0] == febio_surface, number);
         break;
       default:
         break;
@@ -231,6 +235,14 @@ class FebioWriter {
     put_ids(members.points.size(), name, [&](std::size_t i) { return points_[members.points[i]]; });
   }
 
+  void write_facets(bool is_group, Label number) {
+    const GroupMembers* members = is_group ? members_of(2, number) : nullptr;
+    out_.put('\n');
+    if (members != nullptr) put_facets(members->elements);
+    if (!is_group) put_facets(faces_of_label_[number]);
+    out_.put("\t\t");
+  }
+
   template <class IdOf>
   void put_ids(std::size_t count, std::string_view name, const IdOf& id_of) {
     constexpr std::size_t kOfLine = 8;
@@ -286,16 +298,9 @@ class FebioWriter {
 
   /// One for each label of triangles and quadrilaterals, and for each group that is none.
   void write_surfaces(std::set<const Group*>& written) {
-    std::map<Label, std::vector<GroupMembers::Member>> of_label;
-    for (std::uint32_t k = 0; k < lists_.all().size(); ++k) {
-      const ElementList& list = lists_.all()[k];
-      for (std::uint32_t i = 0; i < list.count && list.kind.dimension == 2; ++i) {
-        of_label[list.label(i)].push_back({k, i});
-      }
-    }
     std::map<Label, const Group*> named;
     if (mesh_.data() != nullptr) named = LabelNames(*mesh_.data()).named(2);
-    for (const auto& [label, members] : of_label) {
+    for (const auto& [label, members] : faces_of_label_) {
       const auto found = named.find(label);
       if (found != named.end()) written.insert(found->second);
       put_surface(found == named.end() ? label_name(label) : found->second->name, members);
@@ -309,6 +314,10 @@ class FebioWriter {
 
   void put_surface(const std::string& of, const std::vector<GroupMembers::Member>& members) {
     out_.put(fmt::format("\t\t<Surface name=\"{}\">\n", name(of, 2)));
+    put_facets(members);
+    out_.put("\t\t</Surface>\n");
+  }
+  void put_facets(const std::vector<GroupMembers::Member>& members) {
     put_rows(out_, members.size(), [&](std::size_t i, OutputBuffer& buffer) {
       const ElementList& list = lists_.all()[members[i].list];
       const std::string_view type = febio_type(list.kind.vtk_type);
@@ -316,7 +325,6 @@ class FebioWriter {
       put_vertices(buffer, list.vertices(members[i].index));
       buffer.put(fmt::format("</{}>\n", type));
     });
-    out_.put("\t\t</Surface>\n");
   }
 
   void write_sets(const std::set<const Group*>& written) {
@@ -341,8 +349,10 @@ class FebioWriter {
   std::vector<std::int64_t> points_;                 // their ids
   std::vector<std::vector<std::int64_t>> elements_;  // of each list
   std::vector<GroupMembers> members_;
-  std::map<std::pair<int, Label>, std::size_t> group_of_;  // by dimension and number
-  std::map<Label, std::vector<GroupMembers::Member>> of_label_;
+  std::map<std::pair<int, Label>, std::size_t> group_of_;        // by dimension and number
+  std::map<Label, std::vector<GroupMembers::Member>> of_label_;  // volumes
+  std::map<Label, std::vector<GroupMembers::Member>>
+      faces_of_label_;              // triangles and quadrilaterals
   std::set<Label> labels_written_;  // of blocks of the deck
   std::map<Label, std::vector<std::uint32_t>> points_of_block_;
   std::array<UniqueNames, 4> names_;  // by dimension

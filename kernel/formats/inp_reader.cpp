@@ -405,7 +405,7 @@ class InpReader {
       }
       for (auto& [dimension, parts] : parts_of[s]) {
         set.groups.push_back({dimension, set.number});
-        data_.groups.push_back({dimension, set.number, name, std::move(parts), {}});
+        add_group(dimension, set.number, name, std::move(parts));
       }
     }
     for (std::size_t u = 0; u < faces_.uses.size(); ++u) {
@@ -413,12 +413,24 @@ class InpReader {
       Label label = 0;
       const bool is_label = use.is_surface && to_label(inp_key(use.name), label);
       if (use.number == 0) continue;  // Label_0: all faces without a group
-      data_.groups.push_back({2,
-                              use.number,
-                              is_label ? std::string() : use.name,
-                              std::move(parts_of[sets + u][2]),
-                              {}});
+      add_group(2, use.number, is_label ? std::string() : use.name,
+                std::move(parts_of[sets + u][2]));
     }
+  }
+
+  /// A label may have several sets, and a surface: one group.
+  void add_group(int dimension, Label number, const std::string& name, std::vector<Label> parts) {
+    const auto known =
+        std::find_if(data_.groups.begin(), data_.groups.end(), [&](const Group& group) {
+          return group.dimension == dimension && group.number == number && group.name.empty();
+        });
+    if (!name.empty() || known == data_.groups.end()) {
+      data_.groups.push_back({dimension, number, name, std::move(parts), {}});
+      return;
+    }
+    known->parts.insert(known->parts.end(), parts.begin(), parts.end());
+    std::sort(known->parts.begin(), known->parts.end());
+    known->parts.erase(std::unique(known->parts.begin(), known->parts.end()), known->parts.end());
   }
 
   void add_point_group(InpSet& set, const std::string& name, bool is_label) {

@@ -35,6 +35,16 @@ bool to_label(std::string_view key, Label& label) {
   constexpr std::string_view kPrefix = "LABEL_";
   if (!key.starts_with(kPrefix)) return false;
   std::string digits(key.substr(kPrefix.size()));
+  // What UniqueNames puts behind a name that a set of another dimension has.
+  if (const std::size_t again = digits.find('_'); again != std::string::npos) {
+    const std::string_view number = std::string_view(digits).substr(again + 1);
+    int place = 0;
+    const auto [stop, error] = std::from_chars(number.data(), number.data() + number.size(), place);
+    const bool is_whole = error == std::errc() && stop == number.data() + number.size();
+    if (!is_whole || place < 2 || fmt::format_int(place).size() != number.size()) return false;
+    digits.resize(again);
+  }
+  key = key.substr(0, kPrefix.size() + digits.size());
   if (digits.starts_with('M')) digits[0] = '-';
   const char* end = digits.data() + digits.size();
   Label number = 0;  // "Label_3_of_4" begins like one

@@ -38,7 +38,8 @@ struct InpSet {
   std::vector<InpGroupName> groups;
 };
 
-/// "Label_7" names what has the label 7, and has no other name: "Label_m7" is -7. False for others.
+/// "Label_7" names what has the label 7, and has no other name: "Label_m7" is -7. So does "Label_7_2",
+/// where something else has that name. False for others.
 bool to_label(std::string_view key, Label& label);
 std::string label_name(Label label);
 

@@ -33,7 +33,8 @@ enum LsDynaPiece : char {
   lsdyna_nodes = 'N',     ///< all nodes; behind it comments
   lsdyna_elements = 'E',  ///< all solids; likewise
   lsdyna_set = 'S',  ///< a set of solids: its number in `groups`, then its lines up to the members
-  lsdyna_node_set = 'M',  ///< a set of nodes, likewise
+  lsdyna_node_set = 'M',     ///< a set of nodes, likewise
+  lsdyna_segment_set = 'F',  ///< a set of segments, likewise
   lsdyna_point = 'P'  ///< a node that says more than its place: its number, its line; at the end
 };
 
@@ -95,7 +96,8 @@ inline const std::uint8_t* lsdyna_order(int vtk_type) {
 bool is_lsdyna_name(std::string_view name);
 
 /// Numbers of parts are labels. Points that lines which are kept word for word name become required
-/// vertices; shells and segments of sets are triangles, and stay in the deck. @throws Error
+/// vertices. Shells and segments of sets are triangles; shells, and segments that say more, stay in the
+/// deck. @throws Error
 MeshData read_lsdyna(const std::filesystem::path& file, TetPlace* question = nullptr);
 
 /// The deck and all that it includes; the deck alone where one of them cannot be read.

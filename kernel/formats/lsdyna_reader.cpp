@@ -73,6 +73,8 @@ class LsDynaReader : LsDynaMesh {
     if (is_list(keyword, "SET_SOLID")) return read_solid_set(block);
     if (is_list(keyword, "SET_NODE")) return read_node_set(block);
     if (keyword == "INCLUDE") return keep_includes(block);
+    const bool has_faces = starts_with_any(keyword, {"ELEMENT_SHELL", "SET_SEGMENT"});
+    if (has_faces && read_faces(block)) return;
     const bool is_of_included = block.inclusion != 0 && keyword == "KEYWORD";
     keep(is_of_included ? whole.substr(static_cast<std::size_t>(block.content - block.begin))
                         : whole);
@@ -85,7 +87,6 @@ class LsDynaReader : LsDynaMesh {
       note_names_solids(keyword);
     }
     if (keyword == "PART") read_parts(block);
-    if (starts_with_any(keyword, {"ELEMENT_SHELL", "SET_SEGMENT"})) read_faces(block);
     if (!names_no_nodes(keyword) && !keyword.empty()) pin(block);
   }
 
@@ -232,31 +233,35 @@ class LsDynaReader : LsDynaMesh {
     keep(comments.trailing);
   }
 
-  /// Triangles and quadrilaterals that stay in the deck. Of shells with further cards none is read.
-  void read_faces(const LsDynaBlock& block) {
+  /// Triangles and quadrilaterals. Of shells with further cards none is read.
+  /// @return true for segments that are written anew: all else stays in the deck
+  bool read_faces(const LsDynaBlock& block) {
     const bool is_set = block.keyword.starts_with("SET_");
     const bool is_known = is_set ? block.keyword.find("GENERAL") == std::string::npos
                                  : block.keyword == "ELEMENT_SHELL";
-    if (!is_known) return;
+    if (!is_known) return false;
     SetHead head;
     if (is_set) head = read_head(block);
     if (!is_set) head.members = lines(block);
     const std::size_t width = is_set ? now().card : now().integer;
     std::size_t lost = 0;
+    bool is_plain =
+        is_written_ && (block.keyword == "SET_SEGMENT" || block.keyword == "SET_SEGMENT_TITLE");
     for (const std::string_view line : head.members) {
       split(line, width, width);
       ElementRow row;
       std::int64_t label = head.set.number;
       if (!is_set) nastran_integer(field(1), label);
       row.label = static_cast<Label>(std::clamp<std::int64_t>(label, 0, INT32_MAX));
-      if (read_face(is_set ? 0 : 2, row)) {
-        const std::size_t before = elements_.size();
-        head.set.elements.push_back(faces_.add(row, sorter_, mesh_, elements_));
-        if (elements_.size() > before && is_last_asked_for(question_, mesh_, row.kind->vtk_type))
-          question_->place = files_.file_of(line.data()).line_place(line.data());
-      } else {
+      if (!read_face(is_set ? 0 : 2, row)) {
         ++lost;
+        continue;
       }
+      const std::size_t before = elements_.size();
+      head.set.elements.push_back(faces_.add(row, sorter_, mesh_, elements_));
+      if (elements_.size() > before && is_last_asked_for(question_, mesh_, row.kind->vtk_type))
+        question_->place = files_.file_of(line.data()).line_place(line.data());
+      is_plain = is_plain && is_plain_segment(row, head.set.elements.back());
     }
     if (lost > 0) {
       mesh_.notes.push_back(
@@ -264,7 +269,25 @@ class LsDynaReader : LsDynaMesh {
                       "are in no mesh",
                       lost, block.keyword));
     }
-    if (is_set && !head.set.elements.empty()) sets_.push_back(std::move(head.set));
+    if (!is_set || head.set.elements.empty()) return false;
+    is_plain = is_plain && lost == 0 && are_different(head.set.elements);
+    if (is_plain) {
+      place_set(block, std::move(head), lsdyna_segment_set);
+    } else {
+      sets_.push_back(std::move(head.set));
+    }
+    return is_plain;
+  }
+
+  /// Does the line that was split say no more than the face that stands for it?
+  bool is_plain_segment(const ElementRow& row, std::uint32_t place) const {
+    constexpr std::size_t kNodes = 4;
+    for (std::size_t k = kNodes; k < fields_.size(); ++k) {  // attributes
+      double value = 0;
+      if (!fields_[k].empty() && (!nastran_real(fields_[k], value) || value != 0)) return false;
+    }
+    return is_turned_like(vertices_at(mesh_, elements_[place]),
+                          std::span(row.vertices).first(row.kind->corners));
   }
 
   /// False if it has not three or four nodes of the mesh.

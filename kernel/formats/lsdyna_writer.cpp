@@ -101,6 +101,9 @@ class LsDynaWriter {
       case lsdyna_node_set:
         write_set(text, 0);
         break;
+      case lsdyna_segment_set:
+        write_set(text, 2);
+        break;
       default:
         break;
     }
@@ -186,6 +189,18 @@ class LsDynaWriter {
                 [&](std::size_t i) { return points_[members.points[i]]; });
   }
 
+  void put_segments_of(const std::vector<GroupMembers::Member>& members, std::size_t width) {
+    put_rows(out_, members.size(), [&](std::size_t i, OutputBuffer& buffer) {
+      const ElementList& list = lists_.all()[members[i].list];
+      const auto v = list.vertices(members[i].index).first(list.kind.corners);
+      LsDynaLine line{buffer, !fits(width)};
+      for (std::size_t n = 0; n < 4; ++n) {
+        line.put(points_[v[std::min(n, v.size() - 1)]], width);
+      }
+      line.end();
+    });
+  }
+
   /// @param text  the number of the group, a line break, the lines before the members
   void write_set(std::string_view text, int dimension) {
     Label number = 0;
@@ -196,6 +211,7 @@ class LsDynaWriter {
     const auto found = group_of_.find({dimension, number});
     if (found == group_of_.end()) return;
     if (dimension == 0) put_nodes_of(members_[found->second], width);
+    if (dimension == 2) put_segments_of(members_[found->second].elements, width);
     if (dimension == 3) put_solids_of(members_[found->second], width);
   }
 
@@ -294,15 +310,7 @@ class LsDynaWriter {
     out_.put(name.empty() ? "*SET_SEGMENT\n"
                           : fmt::format("*SET_SEGMENT_TITLE\n{}\n", title(name)));
     out_.put(fmt::format("{:>10}\n", number));
-    put_rows(out_, members.size(), [&](std::size_t i, OutputBuffer& buffer) {
-      const ElementList& list = lists_.all()[members[i].list];
-      const auto v = list.vertices(members[i].index).first(list.kind.corners);
-      LsDynaLine line{buffer, !fits(widths_.card)};
-      for (std::size_t n = 0; n < 4; ++n) {
-        line.put(points_[v[std::min(n, v.size() - 1)]], widths_.card);
-      }
-      line.end();
-    });
+    put_segments_of(members, widths_.card);
   }
 
   OutputFile out_;

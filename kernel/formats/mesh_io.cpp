@@ -136,6 +136,7 @@ constexpr Room kNastranRoom = {.others = true,
                                .edges = false,
                                .holds = formats::nastran_holds,
                                .low_labels = false,
+                               .absent_labels = false,
                                .deck = formats::kNastran};
 constexpr Room kElmerRoom = {.others = true,
                              .second_order = true,
@@ -172,7 +173,8 @@ constexpr Room kMfemRoom = {.groups = true,
                             .edges = false,
                             .holds = formats::mfem_holds,
                             .takes_name = formats::is_mfem_name,
-                            .low_labels = false};
+                            .low_labels = false,
+                            .absent_labels = false};
 
 constexpr Room kLsDynaRoom = {.groups = true,
                               .geometry = false,
@@ -183,6 +185,7 @@ constexpr Room kLsDynaRoom = {.groups = true,
                               .holds = formats::lsdyna_holds,
                               .takes_name = formats::is_lsdyna_name,
                               .low_labels = false,
+                              .absent_labels = false,
                               .deck = formats::kLsDyna};
 constexpr Room kFebioRoom = {.groups = true,
                              .geometry = false,
@@ -204,6 +207,7 @@ constexpr Room kExodusRoom = {.data = true,
                               .holds = formats::exodus_holds,
                               .takes_name = formats::is_exodus_name,
                               .low_labels = false,
+                              .absent_labels = false,
                               .deck = formats::kExodus};
 
 constexpr Room kCgnsRoom = {.data = true,

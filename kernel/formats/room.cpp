@@ -94,6 +94,16 @@ std::size_t low_labels(const MeshData& mesh) {
   return labels.size();
 }
 
+/// Have some elements of a dimension a label, and others none?
+bool lacks_labels(const MeshData& mesh) {
+  const auto lacks = [](const auto& elements) {
+    const auto is_none = [](const auto& element) { return element.label == 0; };
+    return std::any_of(elements.begin(), elements.end(), is_none) &&
+           !std::all_of(elements.begin(), elements.end(), is_none);
+  };
+  return lacks(mesh.tets) || lacks(mesh.triangles);
+}
+
 bool is_medits(const Group& group) {
   return is_medit_vectors(group.name) ||
          std::any_of(kMeditMarks.begin(), kMeditMarks.end(),
@@ -205,6 +215,10 @@ std::vector<std::string> lost_in(const Room& room, const std::string& extension,
   notes.lost(room.edges, mesh.edges.size(), "edges are");
   notes.lost(room.tet_labels, several_labels(mesh.tets), "labels of tets are");
   notes.lost(room.low_labels, low_labels(mesh), "labels below 1 are");
+  if (!room.absent_labels && !has_deck && lacks_labels(mesh)) {
+    notes.sentences.push_back(fmt::format(
+        "elements without a label beside others get one: {} has no label 0", extension));
+  }
   notes.lost(room.point_labels, several_labels(mesh), "labels of points are");
   note_groups(room, mesh, notes);
   const bool has_geometry = room.groups && room.geometry;

@@ -35,7 +35,8 @@ struct Room {
   bool names_are_unique = false;  ///< of arrays of one kind of element: it has the first of a name
   bool group_names_are_unique = false;  ///< of one dimension: others get a number behind them
   bool periodic = false;
-  bool low_labels = true;  ///< below 1
+  bool low_labels = true;     ///< below 0
+  bool absent_labels = true;  ///< 0, beside others
   /// Arrays whose names begin so are its own.
   std::string_view own_arrays = {};
   /// MeshData::variant of a mesh whose deck it can write.

@@ -75,13 +75,20 @@ bool is_label(const std::string& tag, Label& label) {
   return error == std::errc() && stop == end && fmt::format("{}", label) == tag;
 }
 
-/// Of each marker.
+/// Of each marker: the number that is its tag, else its place; if that is taken, one behind the last.
 std::vector<Label> marker_labels(const std::vector<std::string>& tags) {
   std::vector<Label> labels(tags.size());
-  bool are_labels = true;
-  for (std::size_t i = 0; i < tags.size(); ++i) are_labels &= is_label(tags[i], labels[i]);
-  for (std::size_t i = 0; i < tags.size() && !are_labels; ++i) {
+  std::vector<bool> is_known(tags.size());
+  std::set<Label> taken;
+  for (std::size_t i = 0; i < tags.size(); ++i) {
+    is_known[i] = is_label(tags[i], labels[i]);
+    if (is_known[i]) taken.insert(labels[i]);
+  }
+  auto last = static_cast<Label>(tags.size());
+  for (std::size_t i = 0; i < tags.size(); ++i) {
+    if (is_known[i]) continue;
     labels[i] = static_cast<Label>(i + 1);
+    while (!taken.insert(labels[i]).second) labels[i] = ++last;
   }
   return labels;
 }

@@ -75,7 +75,7 @@ struct SmallExodus {
 };
 
 std::vector<std::int64_t> integers_of(const std::filesystem::path& file, const std::string& table) {
-  return formats::open_netcdf(InputFile(file), "Exodus")->integers(table);
+  return formats::open_netcdf(formats::InputFile(file), "Exodus")->integers(table);
 }
 
 }  // namespace

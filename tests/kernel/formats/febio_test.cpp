@@ -78,9 +78,26 @@ TEST_CASE("a model of FEBio gives nodes, blocks, surfaces and sets") {
         std::vector<std::string>{"", "Part1", "Part >2", "Wall", "Same wall", "Held", "All"});
   CHECK(mesh.required_vertices == std::vector<std::uint32_t>{0, 1, 2, 4});
   REQUIRE(deck_remarks(mesh).size() == 2);
-  CHECK(deck_remarks(mesh)[0].ends_with(
-      "a.feb:21 and 1 more: <Surface> keep 3 points where they are"));
+  CHECK(deck_remarks(mesh)[0].ends_with("a.feb:24: <Surface> keeps 3 points where they are"));
   CHECK(mesh.notes.empty());
+}
+
+TEST_CASE("surfaces of FEBio pin no node unless they say more than triangles") {
+  const TempFolder folder;
+  const std::string turned = "<tri3 id=\"1\">3,2,1</tri3>";
+  const auto required = [&](std::string_view what, std::string_view by) {
+    const std::string text = altered(model_text(), turned, "<tri3 id=\"1\">2,3,1</tri3>");
+    return read_model(folder, altered(text, what, by)).required_vertices;
+  };
+  using Points = std::vector<std::uint32_t>;
+  CHECK(read_model(folder, model_text()).required_vertices == Points{0, 1, 2, 4});
+  CHECK(required("Same wall", "Label_7") == Points{0, 1, 2, 4});  // its face has another label
+  CHECK(required("Same wall", "Other") == Points{4});
+  CHECK(required("\"Wall\"", "\"Label_7\"") == Points{4});
+  CHECK(required("<tri3 id=\"1\">1", "<tri3 id=\"1\" side=\"2\">1") == Points{0, 1, 2, 4});
+  CHECK(required("</tri3>", "</tri3><tri3 id=\"2\">1,2,3</tri3>") == Points{0, 1, 2, 4});
+  CHECK(required("</Mesh>", "</Mesh><MeshData><SurfaceData surface=\"Wall\"/></MeshData>") ==
+        Points{0, 1, 2, 4});
 }
 
 TEST_CASE("a set of tets of FEBio labels none, and tets of no block are not lost in silence") {

@@ -90,10 +90,10 @@ TEST_CASE(
     "nodes that other keywords of LS-DYNA name are required, titles and materials name none") {
   const TempFolder folder;
   const MeshData mesh = read_deck(folder, deck_text());
-  // 14 has a constraint, 12 is held by a boundary; 11 to 13 and 20 are in sets.
-  CHECK(mesh.required_vertices == std::vector<std::uint32_t>{0, 1, 2, 3, 4});
+  // 14 has a constraint, 12 is held by a boundary; 13 and 20 are in a set of nodes.
+  CHECK(mesh.required_vertices == std::vector<std::uint32_t>{1, 2, 3, 4});
   const std::vector<std::string> remarks = deck_remarks(mesh);
-  REQUIRE(remarks.size() == 4);
+  REQUIRE(remarks.size() == 3);
   CHECK(remarks[0].ends_with("a.k:17: *NODE with constraints keeps 1 point where it is"));
   CHECK(remarks[1].ends_with("a.k:19: *BOUNDARY_SPC_NODE keeps 1 point where it is"));
   const std::string bare = edited(edited(deck_text(), "       7       0", ""), "*BOUNDARY_SPC_NODE",
@@ -181,6 +181,30 @@ TEST_CASE("a mesh of another format becomes a deck of LS-DYNA with parts, segmen
   CHECK(names == std::vector<std::string>{"body", "nodes", "", "wall"});
 }
 
+TEST_CASE("segments of LS-DYNA pin no node unless they say more than a triangle") {
+  const TempFolder folder;
+  const std::string text =
+      edited(edited(deck_text(), "       7       0", ""), "        13        20", "        20");
+  const std::string wall = "        11        12        13        13\n";
+  const auto required = [&](std::string_view what, std::string_view by) {
+    return read_deck(folder, edited(text, what, by)).required_vertices;
+  };
+  using Points = std::vector<std::uint32_t>;
+  CHECK(read_deck(folder, text).required_vertices == Points{1, 4});
+  CHECK(required(wall, "$ one\n" + wall) == Points{1, 4});
+  CHECK(required(wall, "        13        11        12\n") == Points{1, 4});
+  CHECK(required(wall, "        11        12        13        13        0.       0.5\n") ==
+        Points{0, 1, 2, 4});
+  CHECK(required(wall, wall + wall) == Points{0, 1, 2, 4});
+  // The other side of a face that another set has.
+  CHECK(required("*END", "*SET_SEGMENT\n         9\n        11        13        12\n*END") ==
+        Points{0, 1, 2, 4});
+  const MeshData mesh = read_deck(folder, edited(text, wall, "$ one\n" + wall));
+  write_mesh(folder / "b.k", mesh);
+  CHECK(test::read_text(folder / "b.k").find("wall\n         8\n$ one\n" + wall) !=
+        std::string::npos);
+}
+
 TEST_CASE("segments of LS-DYNA whose nodes are in another file stay in the deck with a note") {
   const TempFolder folder;
   const MeshData mesh =
@@ -216,9 +240,9 @@ TEST_CASE(
   CHECK(mesh.groups == whole.groups);
   CHECK(mesh.required_vertices == whole.required_vertices);
   const std::vector<std::string> remarks = deck_remarks(mesh);
-  REQUIRE(remarks.size() == 4);
+  REQUIRE(remarks.size() == 3);
   CHECK(remarks[0].ends_with("mesh.k:8: *NODE with constraints keeps 1 point where it is"));
-  CHECK(remarks[3].ends_with("held.k:2: *BOUNDARY_SPC_NODE keeps 1 point where it is"));
+  CHECK(remarks[2].ends_with("held.k:2: *BOUNDARY_SPC_NODE keeps 1 point where it is"));
   CHECK(source_files(folder / "deck.k").size() == 4);
   CHECK(not_written(folder / "b.k", mesh).empty());
   const auto elsewhere = not_written(folder / "sub" / "b.k", mesh);
@@ -270,7 +294,7 @@ TEST_CASE(
              "                  12                   0\n");
   const std::string held = edited(deck_text(), "*BOUNDARY_SPC_NODE\n        12",
                                   "*INCLUDE\nheld.k\n*CONTROL_SOMETHING\n        12");
-  CHECK(read_deck(folder, held).required_vertices == std::vector<std::uint32_t>{0, 1, 2, 3, 4});
+  CHECK(read_deck(folder, held).required_vertices == std::vector<std::uint32_t>{1, 2, 3, 4});
   write_text(folder / "held.k", "*KEYWORD LONG=Y\n*NODE\n");
   CHECK(error_of_reading(folder / "a.k").starts_with("a.k:20: the file has other options"));
 }
