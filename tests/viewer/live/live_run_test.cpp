@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <iterator>
 #include <thread>
 
 #include <doctest/doctest.h>
@@ -15,6 +16,7 @@
 #include "kernel/formats/mesh_io.h"
 #include "kernel/integrity.h"
 #include "kernel/surface_fingerprint.h"
+#include "schedule/schedule.h"
 #include "tests/face/meshes.h"
 #include "tests/kernel/formats/fixtures.h"
 #include "tests/support/layered_mesh.h"
@@ -60,6 +62,23 @@ TetMesh last_mesh(LiveRun& run) {
   const auto snapshot = run.take_snapshot();
   REQUIRE(snapshot);
   return snapshot->mesh;
+}
+
+/// With a prism below its first face of the bottom.
+MeshData with_prism(MeshData mesh) {
+  OtherElements prism{.vtk_type = 13, .vertex_count = 6, .vertices = {}, .labels = {7}};
+  for (const MeshData::Tet& tet : mesh.tets) {
+    std::vector<std::uint32_t> face;
+    std::copy_if(tet.vertices.begin(), tet.vertices.end(), std::back_inserter(face),
+                 [&](std::uint32_t v) { return mesh.points[v].z() == 0; });
+    if (face.size() != 3) continue;
+    const auto first = static_cast<std::uint32_t>(mesh.points.size());
+    for (const std::uint32_t v : face) mesh.points.push_back(mesh.points[v] - Point(0, 0, 1));
+    prism.vertices = {face[0], face[1], face[2], first, first + 1, first + 2};
+    mesh.other_elements = {prism};
+    return mesh;
+  }
+  return mesh;
 }
 
 void check_sound(const TetMesh& mesh, const LiveRun::Input& before) {
@@ -122,12 +141,20 @@ TEST_CASE("what a live run saves has the bytes of improve, whatever the schedule
                 .data);
   const auto ball = write("ball.mesh", test::delaunay_ball(300, 1));
   const std::filesystem::path labels = test::asset("two_materials.mesh");
-  const std::vector<std::pair<std::string, std::filesystem::path>> runs = {
-      {"shell", labels},          {"thorough", ball},
-      {"conservative", labels},   {"polish", ball},
+  const std::filesystem::path tangled = folder / "tangled.mesh";
+  write_mesh(tangled, contract::tangled_ball(300, 1));
+  const std::filesystem::path mixed = folder / "mixed.mesh";
+  write_mesh(mixed, with_prism(test::kuhn_cube(3, 0.3, 1)));
+  std::vector<std::pair<std::string, std::filesystem::path>> runs = {
+      {"thorough", ball},         {"polish", ball},
       {script.string(), labels},  {"shell", layered},
       {"conservative", layered},  {"grummp", ball},
+      {"shell", mixed},           {"stellar", mixed},
+      {"shell", tangled},         {"conservative", tangled},
       {script.string(), layered}, {spoils.string(), write("flat.mesh", flat)}};
+  for (const std::string_view name : builtin_schedule_names()) {
+    if (name != "adapt") runs.emplace_back(name, labels);  // which needs lengths
+  }
   for (const auto& each : runs) {
     const std::string& schedule = each.first;
     const std::filesystem::path& file = each.second;
