@@ -31,6 +31,8 @@ constexpr double kTextSize = 15;
 constexpr double kTitleSize = 20;
 constexpr double kMargin = 18;
 constexpr double kLine = 22;
+constexpr double kAxis = 30;               // of the triad
+constexpr double kMostScaleBar = 0.22;     // of the width
 constexpr std::size_t kMostNumbers = 300;  // of vertices that are seen
 
 /// Puts words and bars into the corners of the part of the window that shows the mesh.
@@ -53,26 +55,29 @@ class OverlayDrawer {
     drawing_.height = document.window.height;
   }
 
-  /// Those of the call or of the selection, all that the picture has: at other sides of their vertices
-  /// if need be, or away from them at the end of a line. Of very many, some are left out.
+  /// Those of the call or of the selection, all that the picture has: at any side of their vertices, or
+  /// away from them at the end of a line. Of very many, the last ones only where there is room.
   void names() {
     constexpr std::size_t kMost = 40;
     const auto& all = document_.names();
     Place middle{};
+    std::vector<Place> places;
     for (const NamedVertex& name : all) {
-      const Place at = pixel_of(name.vertex).value_or(Place{});
-      middle.x += at.x / static_cast<double>(all.size());
-      middle.y += at.y / static_cast<double>(all.size());
+      const auto at = pixel_of(name.vertex);
+      middle.x += at.value_or(Place{}).x / static_cast<double>(all.size());
+      middle.y += at.value_or(Place{}).y / static_cast<double>(all.size());
+      if (at && is_in_picture(*at)) places.push_back(*at);
     }
+    places.resize(std::min(places.size(), kMost));
+    for (const Place& at : places) dots_.push_back(box_around(at, 0.3 * look_.text_size));
     for (std::size_t i = 0; i < all.size(); ++i) {
-      const bool must = i < kMost;
-      name_at(all[i], must, must ? std::optional(middle) : std::nullopt);
+      name_at(all[i], i < kMost ? std::optional(middle) : std::nullopt);
     }
   }
   /// Numbers that would cover others are left out.
   void numbers_of_seen() {
     for (const VertexHandle v : seen_vertices(document_, kMostNumbers)) {
-      name_at({v, {}}, false, std::nullopt);
+      name_at({v, {}}, std::nullopt);
     }
   }
 
@@ -146,8 +151,7 @@ class OverlayDrawer {
 
   /// At the lower left.
   void scale_bar() {
-    constexpr double kMost = 0.22;  // of the width
-    const double most = kMost * (right_ - left_);
+    const double most = kMostScaleBar * (right_ - left_);
     const double length = scale_bar_length(document_, most);
     const double pixels = document_.mesh().scale().to_work(length) * document_.canvas.height /
                           document_.view.camera.height_at_target();
@@ -158,20 +162,47 @@ class OverlayDrawer {
     for (const double end : {x, x + pixels}) {
       drawing_.line({end, y - 4 * scale_}, {end, y + 4 * scale_}, pen);
     }
-    words({x + pixels / 2, y - 14 * scale_},
-          figure::tick_text(length) + (document_.view.camera.orthographic ? "" : " at the middle"),
+    const std::string text =
+        figure::tick_text(length) + (document_.view.camera.orthographic ? "" : " at the middle");
+    const double half = look_.text_width(text, kTextSize * scale_) / 2;
+    words({std::max(x + pixels / 2, left_ + kMargin / 2 * scale_ + half), y - 14 * scale_}, text,
           Anchor::middle);
+  }
+
+  /// What has a place of its own, so that words keep away from it.
+  void reserve() {
+    constexpr double kLetters = 1.6;  // behind the ends of the axes
+    const ViewSettings& view = document_.view;
+    const double margin = kMargin * scale_;
+    const double line = kLine * scale_;
+    if (look_.has_triad) fixed_.push_back(box_around(triad_middle(), kLetters * kAxis * scale_));
+    if (view.colour_bar) {
+      const double half = 0.21 * (bottom_ - top_) + 2 * line;
+      const double middle = (top_ + bottom_) / 2;
+      fixed_.push_back({right_ - margin - 60 * scale_, right_, middle - half, middle + half});
+    }
+    if (view.scale_bar) {
+      const double width = margin + kMostScaleBar * (right_ - left_);
+      fixed_.push_back({left_, left_ + width, bottom_ - 2 * line, bottom_});
+    }
+    if (!view.title.empty()) fixed_.push_back({left_, right_, top_, top_ + 2 * line});
+    taken_ = fixed_;
+  }
+
+  /// In a lower corner that nothing else has.
+  Place triad_middle() const {
+    const double length = kAxis * scale_;
+    const bool is_taken = document_.view.colour_bar;  // the lower right
+    const bool is_over_scale = is_taken && document_.view.scale_bar;
+    return {is_taken ? left_ + 2 * length : right_ - 2 * length,
+            bottom_ - (is_over_scale ? 3 : 2) * length};
   }
 
   /// Directions of the axes; those that point away come first, so that the others lie over them.
   void triad() {
-    constexpr double kLength = 30;
     const Camera& camera = document_.view.camera;
-    const double length = kLength * scale_;
-    const bool is_taken = document_.view.colour_bar;  // the lower right
-    const bool is_over_scale = is_taken && document_.view.scale_bar;
-    const Place middle = {is_taken ? left_ + 2 * length : right_ - 2 * length,
-                          bottom_ - (is_over_scale ? 3 : 2) * length};
+    const double length = kAxis * scale_;
+    const Place middle = triad_middle();
     struct Axis {
       glm::dvec3 direction;
       Colour colour;
@@ -228,9 +259,11 @@ class OverlayDrawer {
     return best;
   }
 
-  /// Vertices of the call, and words that stand there already.
+  /// Vertices of the call, words that stand there already, and worse: what has no other place.
   std::size_t covered_by(const figure::Box& box) const {
+    constexpr std::size_t kFixed = 20;
     std::size_t covered = 0;
+    for (const figure::Box& other : fixed_) covered += box.overlaps(other) ? kFixed : 0;
     for (const NamedVertex& name : document_.names()) {
       const auto at = pixel_of(name.vertex);
       const bool is_inside =
@@ -286,23 +319,108 @@ class OverlayDrawer {
     drawing_.add(std::move(stroke));
   }
 
-  /// Where a text of that width does not cover another: at the upper right of a place, with `sides`
-  /// also at the lower right, the upper left and the lower left.
-  std::optional<figure::Box> free_box(const Place& at, double width, bool sides) const {
-    const double text = look_.text_size;
-    const double left = at.x - 0.35 * text - width;
-    const double right = at.x + 0.35 * text;
-    const double above = at.y - 0.6 * text;
-    const double below = at.y + 0.6 * text;
-    const std::array<Place, 4> corners = {
-        {{right, above}, {right, below}, {left, above}, {left, below}}};
-    for (const Place& corner : corners) {
-      const figure::Box box = {corner.x, corner.x + width, corner.y - 0.6 * text,
-                               corner.y + 0.6 * text};
-      if (is_free(box)) return box;
-      if (!sides) break;
+  bool is_in_picture(const Place& at) const {
+    return at.x >= left_ && at.x <= right_ && at.y >= top_ && at.y <= bottom_;
+  }
+
+  static figure::Box box_around(const Place& middle, double half) {
+    return {middle.x - half, middle.x + half, middle.y - half, middle.y + half};
+  }
+
+  /// Of a text of that width, with its middle there.
+  figure::Box box_of_text(const Place& middle, double width) const {
+    const double half = 0.6 * look_.text_size;
+    return {middle.x - width / 2, middle.x + width / 2, middle.y - half, middle.y + half};
+  }
+
+  /// How bad a place for a text is: far from its vertex, over other vertices, behind a line that
+  /// crosses other words, and worst of all over these or cut by the border.
+  double cost_of(const figure::Box& box, const Place& at, bool has_line) const {
+    constexpr double kDot = 3, kCrossed = 4, kCovered = 1000;
+    const auto count = [&](const std::vector<figure::Box>& boxes, const auto& holds) {
+      return static_cast<double>(std::count_if(boxes.begin(), boxes.end(), holds));
+    };
+    const auto overlaps = [&](const figure::Box& other) { return box.overlaps(other); };
+    double cost = kCovered * count(taken_, overlaps) + kDot * count(dots_, overlaps);
+    const bool is_whole =
+        box.left > left_ && box.right < right_ && box.top > top_ && box.bottom < bottom_;
+    if (!is_whole) cost += kCovered / 2;
+    if (!has_line) return cost;
+    const Place end = end_of_line(box, at);
+    cost += std::hypot(end.x - at.x, end.y - at.y) / look_.text_size;
+    return cost + kCrossed * count(taken_, [&](const figure::Box& other) {
+                    return is_crossed(other, at, end);
+                  });
+  }
+
+  static Place end_of_line(const figure::Box& box, const Place& at) {
+    return {std::clamp(at.x, box.left, box.right), (box.top + box.bottom) / 2};
+  }
+
+  static bool is_crossed(const figure::Box& box, const Place& from, const Place& to) {
+    constexpr int kSteps = 16;
+    for (int i = 1; i < kSteps; ++i) {
+      const double t = static_cast<double>(i) / kSteps;
+      const double x = from.x + t * (to.x - from.x);
+      const double y = from.y + t * (to.y - from.y);
+      if (x > box.left && x < box.right && y > box.top && y < box.bottom) return true;
     }
-    return std::nullopt;
+    return false;
+  }
+
+  /// At the upper right of a vertex, if that is free.
+  std::optional<figure::Box> box_beside(const Place& at, double width) const {
+    const figure::Box box = box_of_text(corner_places(at, width).front(), width);
+    if (!is_free(box)) return std::nullopt;
+    return box;
+  }
+
+  /// Middles of texts at the four corners of a vertex, the upper right one first.
+  std::array<Place, 4> corner_places(const Place& at, double width) const {
+    const double text = look_.text_size;
+    const double away = 0.35 * text + width / 2;
+    return {{{at.x + away, at.y - 0.6 * text},
+             {at.x + away, at.y + 0.6 * text},
+             {at.x - away, at.y - 0.6 * text},
+             {at.x - away, at.y + 0.6 * text}}};
+  }
+
+  struct Chosen {
+    figure::Box box;
+    double cost = std::numeric_limits<double>::infinity();
+    bool has_line = false;
+  };
+
+  /// The best place near a vertex; at the end of a line at first away from `middle`. There is always
+  /// one.
+  Chosen best_box(const Place& at, double width, const Place& middle) const {
+    constexpr int kRings = 12;
+    constexpr int kDirections = 24;
+    const double text = look_.text_size;
+    Chosen best;
+    const auto consider = [&](const Place& place, bool has_line) {
+      const figure::Box box = box_of_text(place, width);
+      const double cost = cost_of(box, at, has_line);
+      if (cost < best.cost) best = {box, cost, has_line};
+    };
+    for (const Place& corner : corner_places(at, width)) consider(corner, false);
+    if (best.cost == 0) return best;
+    const double outwards = std::atan2(at.y - middle.y, at.x - middle.x);
+    for (int ring = 1; ring <= kRings && best.cost > 1.5 * (ring - 1); ++ring) {
+      for (int k = 0; k < kDirections; ++k) {  // to both sides in turn
+        const double turn = 2 * std::numbers::pi * ((k + 1) / 2) / kDirections;
+        const double angle = outwards + (k % 2 == 0 ? turn : -turn);
+        const double away = 1.5 * text * ring;
+        consider({at.x + (away + width / 2) * std::cos(angle), at.y + away * std::sin(angle)},
+                 true);
+      }
+    }
+    constexpr double kCovers = 500;
+    if (best.cost < kCovers) return best;
+    for (double y = top_ + text; y < bottom_; y += text) {  // anywhere
+      for (double x = left_ + width; x < right_; x += width) consider({x, y}, true);
+    }
+    return best;
   }
 
   bool is_free(const figure::Box& box) const {
@@ -310,46 +428,25 @@ class OverlayDrawer {
                         [&](const figure::Box& other) { return box.overlaps(other); });
   }
 
-  /// The nearest free place around one, at first away from `middle`.
-  std::optional<figure::Box> box_away(const Place& at, double width, const Place& middle) const {
-    constexpr int kRings = 10;
-    constexpr int kDirections = 24;
-    const double text = look_.text_size;
-    const double outwards = std::atan2(at.y - middle.y, at.x - middle.x);
-    for (int ring = 1; ring <= kRings; ++ring) {
-      for (int k = 0; k < kDirections; ++k) {  // to both sides in turn
-        const double turn = 2 * std::numbers::pi * ((k + 1) / 2) / kDirections;
-        const double angle = outwards + (k % 2 == 0 ? turn : -turn);
-        const double away = 1.5 * text * ring;
-        const Place centre = {at.x + (away + width / 2) * std::cos(angle),
-                              at.y + away * std::sin(angle)};
-        const figure::Box box = {centre.x - width / 2, centre.x + width / 2, centre.y - 0.6 * text,
-                                 centre.y + 0.6 * text};
-        const bool is_inside =
-            box.left > left_ && box.right < right_ && box.top > top_ && box.bottom < bottom_;
-        if (is_inside && is_free(box)) return box;
-      }
-    }
-    return std::nullopt;
-  }
-
   /// The role, if there is one, then the number, beside a dot at the vertex. With a middle to be away
-  /// from, at the end of a line where there is no room beside it.
-  void name_at(const NamedVertex& name, bool sides, const std::optional<Place>& middle_of_all) {
+  /// from, at the end of a line where there is no room beside it; without, nothing then.
+  void name_at(const NamedVertex& name, const std::optional<Place>& middle_of_all) {
     const auto at = pixel_of(name.vertex);
-    if (!at || at->x < left_ || at->x > right_ || at->y < top_ || at->y > bottom_) return;
+    if (!at || !is_in_picture(*at)) return;
     const double text = look_.text_size;
     const std::string number = fmt::format("{}", name.vertex.index());
     const std::string role = name.role.empty() ? "" : name.role + " ";
     const double role_width = look_.text_width(role, text);
     const double width = role_width + look_.text_width(number, text);
-    auto box = free_box(*at, width, sides);
-    if (!box && middle_of_all) {
-      box = box_away(*at, width, *middle_of_all);
-      if (box) {
-        drawing_.line(*at, {std::clamp(at->x, box->left, box->right), (box->top + box->bottom) / 2},
-                      Pen{ink_, text / 16});
+    std::optional<figure::Box> box;
+    if (middle_of_all) {
+      const Chosen chosen = best_box(*at, width, *middle_of_all);
+      box = chosen.box;
+      if (chosen.has_line) {
+        drawing_.line(*at, end_of_line(chosen.box, *at), Pen{ink_, text / 16});
       }
+    } else {
+      box = box_beside(*at, width);
     }
     if (!box) return;
     taken_.push_back(*box);
@@ -473,7 +570,9 @@ class OverlayDrawer {
   bool on_dark_ = false;
   Colour ink_, ground_;
   Drawing drawing_;
-  std::vector<figure::Box> taken_;  // by numbers
+  std::vector<figure::Box> fixed_;  // by axes and bars
+  std::vector<figure::Box> taken_;  // by these and by numbers
+  std::vector<figure::Box> dots_;   // vertices that have a name
 };
 
 }  // namespace
@@ -547,6 +646,7 @@ Drawing draw_overlay(Document& document, const OverlayLook& look) {
   OverlayDrawer drawer(document, look);
   if (!document.has_mesh()) return drawer.take();
   const ViewSettings& view = document.view;
+  drawer.reserve();
   drawer.pointed();
   if (view.numbers) drawer.names();
   if (view.all_numbers) drawer.numbers_of_seen();

@@ -258,3 +258,94 @@ TEST_CASE("no vertex of what is selected is without its number, however small th
     }
   }
 }
+
+namespace {
+
+std::vector<figure::Box> boxes_of_words(const figure::Drawing& drawing) {
+  std::vector<figure::Box> boxes;
+  for (const figure::Shape& shape : drawing.shapes) {
+    if (const auto* text = std::get_if<figure::Text>(&shape)) boxes.push_back(box_of(*text));
+  }
+  return boxes;
+}
+
+}  // namespace
+
+TEST_CASE("names of a shell of a few pixels stand apart, at the ends of lines, and none is lost") {
+  TestSession s(test::shell_mesh({.degree = 14}));
+  s.run("select_edge", {0, 1});
+  s.document.view.camera.orthographic = true;
+  s.run("from_top");
+  const auto all_there = [](const figure::Drawing& drawing) {
+    const auto words = words_of(drawing);
+    for (int i = 1; i <= 14; ++i) {
+      CAPTURE(i);
+      CHECK(has(words, fmt::format("p{} ", i)));
+    }
+    CHECK((has(words, "a ") && has(words, "b ")));
+  };
+  s.document.resize({600, 450});
+  s.document.view.camera.distance *= 12;  // the shell is smaller than a word
+  const figure::Drawing drawing = draw_overlay(s.document, {.text_size = 12});
+  all_there(drawing);
+  const auto boxes = boxes_of_words(drawing);
+  for (std::size_t i = 0; i < boxes.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) CHECK_FALSE(boxes[i].overlaps(boxes[j]));
+    CHECK((boxes[i].left >= 0 && boxes[i].right <= 600));
+    CHECK((boxes[i].top >= 0 && boxes[i].bottom <= 450));
+  }
+  // Where there is no room for so many, they lie on each other rather than nowhere.
+  s.document.resize({160, 120});
+  all_there(draw_overlay(s.document, {.text_size = 16}));
+}
+
+TEST_CASE("a name lies on no other vertex that has one, where there is room") {
+  TestSession s(test::shell_mesh({.degree = 8}));
+  s.document.resize({900, 700});
+  s.run("select_edge", {0, 1});
+  s.run("fit");
+  for (const double zoom : {1.0, 2.5, 5.0}) {
+    s.document.view.camera.distance *= zoom;
+    const figure::Drawing drawing = draw_overlay(s.document, {.text_size = 14});
+    const auto boxes = boxes_of_words(drawing);
+    CHECK(boxes.size() == 2 * 10);
+    for (const figure::Shape& shape : drawing.shapes) {
+      const auto* dot = std::get_if<figure::Dot>(&shape);
+      if (dot == nullptr) continue;
+      for (const figure::Box& box : boxes) {
+        const bool is_on = dot->middle.x > box.left && dot->middle.x < box.right &&
+                           dot->middle.y > box.top && dot->middle.y < box.bottom;
+        CHECK_FALSE(is_on);
+      }
+    }
+  }
+}
+
+TEST_CASE("the legend keeps clear of the axes where a colour bar has taken their corner") {
+  Document document;
+  document.open(TETMEND_SOURCE_DIR "/assets/lessons/2-two-shells.trace");
+  document.show_panels = true;
+  document.resize({700, 560});
+  document.debugger()->seek(8);
+  document.show_trace();
+  document.scene();
+  document.view.colour_bar = true;
+  document.view.scene.colour = "quality";
+  const figure::Drawing drawing = draw_overlay(document, {.has_triad = true});
+  REQUIRE(!document.legend().empty());
+  const auto place_of = [&](const std::string& word) {
+    for (const figure::Shape& shape : drawing.shapes) {
+      const auto* text = std::get_if<figure::Text>(&shape);
+      if (text != nullptr && text->text == word) return box_of(*text);
+    }
+    FAIL("no " << word);
+    return figure::Box{};
+  };
+  for (const char* axis : {"x", "y", "z"}) {
+    for (const auto& entry : document.legend()) {
+      figure::Box line = place_of(entry.text);
+      line.left -= 30;  // with its colour
+      CHECK_FALSE(line.overlaps(place_of(axis)));
+    }
+  }
+}
