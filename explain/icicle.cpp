@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 
 namespace tetmend::explain {
 
@@ -88,6 +89,63 @@ std::vector<IcicleBar> lay_out_icicle(const TraceFile& file, const CallWindow& w
     k = is_thin ? call.subtree_end : k + 1;
   }
   return bars;
+}
+
+double icicle_row_height(const std::vector<IcicleBar>& bars, double band) {
+  unsigned deepest = 0;
+  for (const IcicleBar& bar : bars) deepest = std::max(deepest, bar.row);
+  return band / (deepest + 1.0);
+}
+
+namespace {
+
+std::vector<std::string> words_of(const std::string& text) {
+  std::vector<std::string> words;
+  std::istringstream in(text);
+  for (std::string word; in >> word;) words.push_back(word);
+  return words;
+}
+
+/// As few lines as can be, none wider than that; a word that is wider stands alone.
+std::vector<std::string> in_lines(const std::string& text, double width,
+                                  const std::function<double(const std::string&)>& width_of) {
+  std::vector<std::string> lines;
+  for (const std::string& word : words_of(text)) {
+    const std::string longer = lines.empty() ? word : lines.back() + " " + word;
+    if (!lines.empty() && width_of(longer) <= width) {
+      lines.back() = longer;
+    } else {
+      lines.push_back(word);
+    }
+  }
+  return lines;
+}
+
+}  // namespace
+
+BarName name_in_bar(const std::string& operator_name, const std::string& target, double width,
+                    double height, double text,
+                    const std::function<double(const std::string&)>& width_of) {
+  constexpr double kMargin = 0.2;  // of the text, on each side
+  constexpr double kSmallest = 0.6;
+  constexpr double kStep = 0.1;
+  for (const bool has_operator : {true, false}) {
+    for (double share = 1; share > kSmallest - kStep / 2; share -= kStep) {
+      const double size = share * text;
+      const double room = (width - 2 * kMargin * size) / share;  // in texts of the usual size
+      std::vector<std::string> lines;
+      if (has_operator) lines = in_lines(operator_name, room, width_of);
+      for (std::string& line : in_lines(target, room, width_of)) lines.push_back(std::move(line));
+      // In one line, if that has room.
+      const std::string whole = (has_operator ? operator_name + " " : "") + target;
+      if (width_of(whole) <= room) lines = {whole};
+      const bool is_narrow = std::all_of(lines.begin(), lines.end(), [&](const std::string& line) {
+        return width_of(line) <= room;
+      });
+      if (is_narrow && static_cast<double>(lines.size()) * size <= height) return {lines, size};
+    }
+  }
+  return {};
 }
 
 const IcicleBar* bar_at(const std::vector<IcicleBar>& bars, double x, unsigned row) {

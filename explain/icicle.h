@@ -4,6 +4,8 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
+#include <string>
 #include <vector>
 
 #include "explain/call_facts.h"
@@ -40,6 +42,21 @@ CallWindow panned(const CallWindow& whole, const CallWindow& shown, std::int64_t
 /// are cut there. Cost: linear in the calls that are not left out.
 std::vector<IcicleBar> lay_out_icicle(const TraceFile& file, const CallWindow& window,
                                       double thinnest);
+
+/// Rows of one height that fill the band, all whole.
+double icicle_row_height(const std::vector<IcicleBar>& bars, double band);
+
+/// What stands in the bar of a single call.
+struct BarName {
+  std::vector<std::string> lines;  ///< none: there is no room
+  double size = 0;                 ///< of the text
+};
+/// Operator and target, in one line or in as many as fit, smaller if need be; else the target alone.
+/// @param text the size of the text, if there is room
+/// @param width_of a text in that size
+BarName name_in_bar(const std::string& operator_name, const std::string& target, double width,
+                    double height, double text,
+                    const std::function<double(const std::string&)>& width_of);
 
 /// The bar at a place; null where there is none.
 const IcicleBar* bar_at(const std::vector<IcicleBar>& bars, double x, unsigned row);

@@ -109,3 +109,40 @@ TEST_CASE("zooming and moving never lead out of the window, and back to the whol
   CHECK(shown.end == whole.end);
   CHECK(shown.first_call == whole.first_call);
 }
+
+TEST_CASE("rows fill the band, be it one or many") {
+  const test::HandmadeTrace trace;
+  const TraceFile file(trace.path());
+  CHECK(icicle_row_height(lay_out_icicle(file, call_window(file, 1), 0), 120) == 120);  // alone
+  const auto bars = lay_out_icicle(file, call_window(file, 0), 0);
+  CHECK(icicle_row_height(bars, 120) == 60);
+}
+
+TEST_CASE(
+    "a bar has operator and target in as many lines as it has room for, or the target alone") {
+  const auto width_of = [](const std::string& text) {
+    return 10.0 * static_cast<double>(text.size());
+  };
+  const auto name = [&](double width, double height) {
+    return name_in_bar("face removal", "face 1 2 3", width, height, 20, width_of);
+  };
+  using Lines = std::vector<std::string>;
+  CHECK(name(250, 20).lines == Lines{"face removal face 1 2 3"});
+  CHECK(name(250, 20).size == 20);
+  CHECK(name(140, 40).lines == Lines{"face removal", "face 1 2 3"});
+  CHECK(name(90, 80).lines == Lines{"face", "removal", "face 1 2", "3"});
+  // Smaller before it is cut.
+  CHECK(name(160, 14).lines == Lines{"face removal face 1 2 3"});
+  CHECK(name(160, 14).size < 14);
+  CHECK(name(110, 20).lines == Lines{"face 1 2 3"});
+  CHECK(name(20, 100).lines.empty());
+  CHECK(name(250, 8).lines.empty());
+  for (double width = 5; width < 300; width += 7) {
+    for (double height = 5; height < 120; height += 9) {
+      const BarName made = name(width, height);
+      const double share = made.size / 20;
+      CHECK(static_cast<double>(made.lines.size()) * made.size <= height);
+      for (const std::string& line : made.lines) CHECK(share * width_of(line) < width);
+    }
+  }
+}

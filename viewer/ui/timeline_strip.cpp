@@ -140,6 +140,37 @@ void draw_timeline(Session& session, const Band& band) {
   }
 }
 
+/// A mark on white, and operator and target beside it, where there is room.
+void name_bar(const Debugger& debugger, const IcicleBar& bar, ImVec2 corner, const ImVec2& size,
+              bool is_pointed) {
+  constexpr float kSmallest = 0.6F;
+  constexpr float kMark = 0.7F;
+  const Call& call = debugger.file().calls()[bar.call];
+  const Outcome outcome = outcome_of(call);
+  const float font = ImGui::GetFontSize();
+  const float mark = std::min(font, size.y - 1);
+  if (mark < kSmallest * font || size.x < 1.4F * mark) return;
+  ImDrawList* list = ImGui::GetWindowDrawList();
+  const ImVec2 inside = {corner.x + 1, corner.y + 1};
+  list->AddRectFilled(inside, {inside.x + mark, inside.y + mark}, IM_COL32_WHITE, 2);
+  figure::Drawing drawing;
+  const double margin = (1 - kMark) / 2 * mark;
+  add_mark(drawing, outcome, {inside.x + margin, inside.y + margin}, kMark * mark);
+  paint(drawing, *list);
+  const BarName name = name_in_bar(
+      short_name(debugger.file(), call), format_target(call), size.x - mark, size.y, font,
+      [](const std::string& text) { return double{ImGui::CalcTextSize(text.c_str()).x}; });
+  const bool is_pale = is_pointed || outcome == Outcome::undone;
+  const auto text_size = static_cast<float>(name.size);
+  ImVec2 at = {inside.x + mark + 0.2F * text_size, corner.y + (mark - text_size) / 2};
+  at.y = std::max(at.y, corner.y);
+  for (const std::string& line : name.lines) {
+    list->AddText(ImGui::GetFont(), text_size, at, is_pale ? IM_COL32_BLACK : IM_COL32_WHITE,
+                  line.c_str());
+    at.y += text_size;
+  }
+}
+
 void draw_bar(const Debugger& debugger, const Band& band, const IcicleBar& bar, float height,
               bool is_pointed) {
   const Call& call = debugger.file().calls()[bar.call];
@@ -164,17 +195,7 @@ void draw_bar(const Debugger& debugger, const Band& band, const IcicleBar& bar, 
                   0, 2);
   }
   if (bar.count > 1) return;
-  if (height < ImGui::GetFontSize()) return;
-  const float mark = ImGui::GetFontSize();
-  if (right - left < 1.4F * mark) return;
-  list->AddRectFilled({left + 1, top + 1}, {left + mark + 1, top + height - 2}, IM_COL32_WHITE, 2);
-  figure::Drawing drawing;
-  add_mark(drawing, outcome, {left + 1 + 0.15 * mark, top + (height - 0.7 * mark) / 2}, 0.7 * mark);
-  paint(drawing, *list);
-  const bool is_pale = is_pointed || outcome == Outcome::undone;
-  write_inside(left + mark, right, top + (height - ImGui::GetFontSize()) / 2,
-               fmt::format("{} {}", short_name(debugger.file(), call), format_target(call)),
-               is_pale ? IM_COL32_BLACK : IM_COL32_WHITE);
+  name_bar(debugger, bar, {left, top}, {right - 1 - left, height - 1}, is_pointed);
 }
 
 /// The window of the icicles: the outermost call at hand, or the pass.
@@ -206,15 +227,10 @@ bool zoom_by_mouse(Session& session, const Band& band, const CallWindow& shown) 
 void draw_icicles(Session& session, const Band& band, const CallWindow& window) {
   const Debugger& debugger = *session.document.debugger();
   frame(band);
-  constexpr double kThinnest = 3;   // pixels
-  constexpr float kHighest = 1.8F;  // of the text
+  constexpr double kThinnest = 3;  // pixels
   const auto bars = lay_out_icicle(debugger.file(), window,
                                    kThinnest / static_cast<double>(std::max(band.size.x, 1.0F)));
-  // All rows that are seen are whole, and fill the band as far as that helps.
-  unsigned deepest = 0;
-  for (const IcicleBar& bar : bars) deepest = std::max(deepest, bar.row);
-  const float height =
-      std::min(kHighest * ImGui::GetFontSize(), band.size.y / static_cast<float>(deepest + 1));
+  const auto height = static_cast<float>(icicle_row_height(bars, band.size.y));
   ImGui::GetWindowDrawList()->PushClipRect(
       band.corner, {band.corner.x + band.size.x, band.corner.y + band.size.y}, true);
   const std::uint32_t pointed = session.document.pointed().call;
