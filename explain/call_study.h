@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "explain/shell_picture.h"
+#include "explain/table_filling.h"
 #include "trace/replay.h"
 
 namespace tetmend::explain {
@@ -71,6 +72,7 @@ struct PolygonView {
   const ShellPicture* shell = nullptr;
   const FlatCovering* covering = nullptr;  ///< that was made or tried; only of `made`
   std::string caption;
+  std::optional<TableCell> cell = {};  ///< of the tables, that was filled last
 };
 /// `refused`: the call has searched in vain, and has ended. Precondition: the study has a picture.
 PolygonView polygon_at(const CallStudy& study, std::uint64_t position, bool refused);

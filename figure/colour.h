@@ -57,5 +57,6 @@ inline constexpr Colour kSupportingFaceColour{214, 30, 150, 90};
 inline constexpr Colour kLinkFaceColour{60, 150, 230, 60};
 inline constexpr Colour kChordColour{0, 150, 136, 255};
 inline constexpr Colour kCoreColour{235, 168, 20, 255};
+inline constexpr Colour kCellColour{112, 48, 190, 255};  ///< of the tables of Algorithm 2
 
 }  // namespace tetmend::figure

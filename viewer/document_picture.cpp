@@ -261,6 +261,7 @@ void Document::mark_call() {
   }
   if (!study->picture) return;
   const PolygonView polygon = debugger_->polygon();
+  mark(highlight_cell(*study, polygon, ball_.centre), kCellColour, "pocket of the cell");
   if (polygon.covering == nullptr) return;
   const char* tense = study->undone ? "tried" : "made";
   mark(highlight_covering(*study, polygon, ball_.centre), kChordColour,

@@ -38,7 +38,10 @@ Place mix(const Place& p, const Place& q, double t) {
 class PolygonDrawer {
  public:
   PolygonDrawer(const ShellPicture& shell, const RingLook& look)
-      : shell_(shell), look_(look), radius_(look.half * radius_for_names()) {}
+      : shell_(shell), look_(look), name_size_(look.name_size) {
+    spread_names();
+    radius_ = look_.half * std::max(radius_for_names(), kLeastRadius);
+  }
 
   void chords() {
     const std::vector<Chord> chords = chords_of(shell_);
@@ -67,6 +70,23 @@ class PolygonDrawer {
     }
   }
 
+  /// The pocket of a cell of the tables, with the triangle that it has chosen at its chord.
+  void cell(const TableCell& cell) {
+    const unsigned k = shell_.tables.k(cell.i, cell.j);
+    const auto edge = [&](unsigned from, unsigned to, double width) {
+      line(corner(from), corner(to), {figure::kCellColour, width * look_.line},
+           {ends(from, to), {}});
+    };
+    if (k < shell_.ring.size()) {
+      areas_.emplace_back(
+          Area{{corner(cell.i), corner(k), corner(cell.j)}, faint(figure::kCellColour, 0.28), {}},
+          Meaning{{shell_.ring[cell.i], shell_.ring[k], shell_.ring[cell.j]}, {}});
+      edge(cell.i, k, 2.5);
+      edge(k, cell.j, 2.5);
+    }
+    edge(cell.i, cell.j, 5);
+  }
+
   /// Areas, then lines, then words on top of each other.
   LinkedDrawing finish() {
     LinkedDrawing all;
@@ -77,7 +97,10 @@ class PolygonDrawer {
               {ends(i, (i + 1) % m), {}});
     }
     for (auto& [stroke, meaning] : lines_) all.add(std::move(stroke), std::move(meaning));
-    if (look_.name_size > 0) words(all);
+    if (name_size_ > 0) {
+      leaders(all);
+      words(all);
+    }
     return all;
   }
 
@@ -98,20 +121,83 @@ class PolygonDrawer {
 
   std::string name_text(std::size_t i) const { return fmt::format("{}", shell_.ring[i].index()); }
   double half_width(std::size_t i) const {
-    return figure::text_width(name_text(i), look_.name_size, figure::Font::bold) / 2;
+    return figure::text_width(name_text(i), name_size_, figure::Font::bold) / 2;
   }
-  double half_height() const { return (1 + kPlaceBelow) / 2 * look_.name_size; }
+  double half_height() const { return (1 + kPlaceBelow) / 2 * name_size_; }
   /// Of the middle of a name from its corner.
   double distance_of_name(std::size_t i) const {
     const Eigen::Vector2d out = shell_.place(i);
-    return kNameGap * look_.half + half_width(i) * std::abs(out.x()) +
-           half_height() * std::abs(out.y());
+    const double own = half_width(i) * std::abs(out.x()) + half_height() * std::abs(out.y());
+    return kNameGap * look_.half + (1 + 2 * circle_of(i)) * own;
+  }
+
+  /// Of names that stand in turn on several circles: 0 is the inner one.
+  unsigned circle_of(std::size_t i) const {
+    const std::size_t m = shell_.ring.size();
+    const bool is_odd = i + 1 == m && m % circles_ == 1 && circles_ > 1;
+    return is_odd ? circles_ : static_cast<unsigned>(i % circles_);
+  }
+
+  /// Where names would lie on each other: smaller ones, or on several circles.
+  void spread_names() {
+    struct Try {
+      unsigned circles;
+      double share;
+    };
+    constexpr std::array<Try, 10> kTries = {{{1, 1},
+                                             {1, 0.85},
+                                             {2, 1},
+                                             {2, 0.85},
+                                             {1, 0.7},
+                                             {2, 0.7},
+                                             {3, 0.85},
+                                             {3, 0.7},
+                                             {2, 0.55},
+                                             {3, 0.55}}};
+    for (const Try& tried : kTries) {
+      circles_ = tried.circles;
+      name_size_ = tried.share * look_.name_size;
+      const double radius = radius_for_names();
+      radius_ = look_.half * std::max(radius, kLeastRadius);
+      if (radius >= kLeastRadius && !names_overlap()) return;
+    }
+  }
+
+  bool names_overlap() const {
+    std::vector<figure::Box> boxes;
+    for (std::size_t i = 0; i < shell_.ring.size(); ++i) {
+      const figure::Box box = box_of_name(i);
+      for (const figure::Box& other : boxes) {
+        if (box.overlaps(other)) return true;
+      }
+      boxes.push_back(box);
+    }
+    return false;
+  }
+
+  figure::Box box_of_name(std::size_t i) const {
+    const Place middle = middle_of_name(i);
+    const double wide = half_width(i), high = half_height();
+    return {middle.x - wide, middle.x + wide, middle.y - high, middle.y + high};
+  }
+
+  /// From corners to names that do not stand beside them.
+  void leaders(LinkedDrawing& all) const {
+    for (std::size_t i = 0; i < shell_.ring.size(); ++i) {
+      if (circle_of(i) == 0) continue;
+      const figure::Box box = box_of_name(i);
+      const Place from = corner(i);
+      const Place to = {std::clamp(from.x, box.left, box.right),
+                        std::clamp(from.y, box.top, box.bottom)};
+      all.add(figure::Stroke{{from, to}, {faint(look_.ink, 0.5), 0.75 * look_.line}},
+              {{shell_.ring[i]}, {}});
+    }
   }
 
   /// The largest with which all names lie in the square, clear of the polygon.
   double radius_for_names() const {
     double radius = kRadius;
-    if (look_.name_size <= 0) return radius;
+    if (name_size_ <= 0) return radius;
     const auto shrink = [&](std::size_t i, double out, double half_size) {
       constexpr double kAcross = 0.3;  // there is room in this direction
       if (out < kAcross) return;
@@ -122,7 +208,7 @@ class PolygonDrawer {
       shrink(i, std::abs(shell_.place(i).x()), half_width(i));
       shrink(i, std::abs(shell_.place(i).y()), half_height());
     }
-    return std::max(radius, kLeastRadius);
+    return radius;
   }
 
   /// Outside of its corner, so far that it is clear of the polygon, and inside of the square.
@@ -140,7 +226,7 @@ class PolygonDrawer {
 
   /// The number of the vertex, and below it p_i as the paper has it.
   std::array<Text, 3> name_of(std::size_t i) const {
-    const double size = look_.name_size;
+    const double size = name_size_;
     Place middle = middle_of_name(i);
     middle.y -= half_height() - size / 2;
     Text number = figure::centred(middle, name_text(i), size, figure::Font::bold);
@@ -235,7 +321,9 @@ class PolygonDrawer {
 
   const ShellPicture& shell_;
   const RingLook& look_;
-  double radius_;  // of the polygon
+  double name_size_;  // as it is, and on how many circles
+  unsigned circles_ = 1;
+  double radius_ = 0;  // of the polygon
   std::vector<std::pair<figure::Shape, Meaning>> areas_, lines_;
   std::vector<Number> numbers_;
 };
@@ -278,6 +366,7 @@ LinkedDrawing draw_polygon(const PolygonView& view, const RingLook& look) {
       drawer.covering(shell.before, false);
       break;
   }
+  if (view.cell) drawer.cell(*view.cell);
   return drawer.finish();
 }
 

@@ -214,6 +214,22 @@ class Pages(unittest.TestCase):
             self.assertGreater(self.faces_to_remove, 5)
             self.assertGreater(self.calling_lines, 50)
 
+    def test_the_viewer_fills_tables_cell_by_cell_with_the_words_of_the_page(self) -> None:
+        if VIEWER is None:
+            self.skipTest("without the viewer")
+        filled = 0
+        for name in NAMES:
+            facts = [fact for fact in self.walk(self.desk, WORK / "lessons" / f"{name}.html") if fact.get("cells")]
+            steps = [(fact["position"], cell["text"]) for fact in facts for cell in fact["cells"]]
+            script = WORK / "fill.lua"
+            script.write_text("tables()\n" + "".join(
+                f"seek({fact['position']})\nfor _ = 1, {len(fact['cells'])} do step_into() print(state().trace.position, state().trace.filling.text) end\n" for fact in facts))
+            done = run(VIEWER, "--script", script, LESSONS / f"{name}.trace")
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertEqual(done.stdout.splitlines(), [f"{position}\t{text}" for position, text in steps], name)
+            filled += len(steps)
+        self.assertGreater(filled, 100)
+
     def test_each_step_of_each_page_of_the_lecture_is_whole(self) -> None:
         made = {page.name: page.read_bytes() for page in (WORK / "lessons").iterdir()}
         walked = skipped = 0

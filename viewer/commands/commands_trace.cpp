@@ -16,12 +16,17 @@ namespace {
 /// Where a move has led, for the status line; the result of the command.
 json arrive(Session& s, const std::string& text = {}) {
   s.document.show_trace();
-  const Debugger& debugger = *s.document.debugger();
-  s.document.message = {text.empty()
-                            ? fmt::format("event {} of {}: {}", grouped(debugger.position()),
-                                          grouped(debugger.end()), debugger.last_event())
-                            : text,
-                        false};
+  Debugger& debugger = *s.document.debugger();
+  std::string here = text;
+  if (here.empty()) {
+    here = fmt::format("event {} of {}: {}", grouped(debugger.position()), grouped(debugger.end()),
+                       debugger.last_event());
+    const TableFilling filling = debugger.tables();
+    if (filling.is_under_way) {
+      here += fmt::format(", cell {} of {}", filling.filled, filling.cells.size());
+    }
+  }
+  s.document.message = {here, false};
   return debugger.position();
 }
 
@@ -286,6 +291,13 @@ json point_at(Session& s, const json& a) {
   return nullptr;
 }
 
+json tables(Session& s, const json&) {
+  Debugger& debugger = need_trace(s.document);
+  debugger.shows_tables = !debugger.shows_tables;
+  s.document.show_trace();
+  return nullptr;
+}
+
 json blend(Session& s, const json& a) {
   need_trace(s.document);
   ViewSettings& view = s.document.view;
@@ -303,7 +315,8 @@ constexpr std::array kTraceCommands = {
             &seek},
     Command{"step", "", "", "step(\"over\", \"back\")",
             "Step \"into\", \"over\" or \"out\", forward or back; the result is the place", &step},
-    Command{"step_into", "Right", kTrace, "step_into()", "One event on",
+    Command{"step_into", "Right", kTrace, "step_into()",
+            "One event on, or one cell of the tables that are looked at",
             &move<Step::into, kForward>},
     Command{"back_into", "Left", kTrace, "back_into()", "One event back", &move<Step::into, kBack>},
     Command{"step_over", "Down", kTrace, "step_over()", "One event on, over a whole call",
@@ -362,6 +375,8 @@ constexpr std::array kTraceCommands = {
     Command{"point_at", "", "", "point_at(\"edge 3 17\")",
             "Light up a vertex, edge, face or tet by its vertices, or a call, in all views",
             &point_at},
+    Command{"tables", "", kTrace, "tables()",
+            "The tables of Algorithm 2 are looked at, and filled by steps", &tables},
     Command{"blend", "V", kTrace, "blend(0.5)",
             "The shell before and after side by side, or blended", &blend},
 };

@@ -88,6 +88,7 @@ constexpr auto kTexts = std::to_array<Text>({{"open", "Open ..."},
                                              {"isolate", "Isolate"},
                                              {"follow", "Camera follows"},
                                              {"teaching", "Layout for teaching"},
+                                             {"tables", "Tables of Algorithm 2"},
                                              {"blend", "Blend before and after"},
                                              {"figure", "Save figures of the call"},
                                              {"colour_bar", "Colour bar"},
@@ -151,7 +152,7 @@ bool begins_group(const Command& command) {
 std::optional<bool> is_on(const Command& command, const Document& document) {
   const ViewSettings& view = document.view;
   const SceneSettings& scene = view.scene;
-  const std::array<std::pair<std::string_view, bool>, 23> states = {
+  const std::array<std::pair<std::string_view, bool>, 24> states = {
       {{"edges", view.edges},
        {"bad", scene.bad},
        {"bad_beyond_cuts", scene.bad_beyond_cuts},
@@ -174,6 +175,7 @@ std::optional<bool> is_on(const Command& command, const Document& document) {
        {"isolate", scene.isolate},
        {"follow", document.follow_trace},
        {"teaching", document.teaching},
+       {"tables", document.debugger() != nullptr && document.debugger()->shows_tables},
        {"live_follow", document.follow_changes_live}}};
   for (const auto& [name, state] : states) {
     if (name == command.name) return state;

@@ -150,6 +150,11 @@ json trace_state_of(Document& document) {
   const PolygonView polygon = debugger.polygon();
   if (polygon.shell->ring.size() >= 3) result["caption"] = polygon.caption;
   result["shell"] = shell_state(polygon);
+  const TableFilling filling = debugger.tables();
+  result["filling"] = {{"filled", filling.filled},
+                       {"cells", filling.cells.size()},
+                       {"is_under_way", filling.is_under_way},
+                       {"text", to_text(*polygon.shell, filling)}};
   return result;
 }
 

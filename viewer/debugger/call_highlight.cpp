@@ -45,6 +45,32 @@ Highlight highlight_covering(const CallStudy& study, const PolygonView& polygon,
   return highlight;
 }
 
+Highlight highlight_cell(const CallStudy& study, const PolygonView& polygon,
+                         const glm::dvec3& origin) {
+  constexpr std::uint8_t kClear = 70;
+  Highlight highlight;
+  if (!polygon.cell) return highlight;
+  const auto place = [&](unsigned i) {
+    return place_of_corner(study.before, polygon.shell->ring[i]);
+  };
+  const auto from = place(polygon.cell->i);
+  const auto to = place(polygon.cell->j);
+  if (!from || !to) return highlight;
+  const auto line = [&](const glm::dvec3& p, const glm::dvec3& q, float width) {
+    highlight.lines.push_back({glm::vec3(p - origin), glm::vec3(q - origin), kCellColour, width});
+  };
+  line(*from, *to, 5);
+  const unsigned k = polygon.shell->tables.k(polygon.cell->i, polygon.cell->j);
+  const auto apex = k < polygon.shell->ring.size() ? place(k) : std::nullopt;
+  if (!apex) return highlight;
+  line(*from, *apex, 2.5F);
+  line(*apex, *to, 2.5F);
+  Colour fill = kCellColour;
+  fill.alpha = kClear;
+  add_triangle(highlight.faces, {*from, *apex, *to}, fill, origin);
+  return highlight;
+}
+
 Highlight highlight_caller(const TetMesh& mesh, TetEdge edge, const glm::dvec3& origin) {
   constexpr std::uint8_t kFaint = 26;
   Highlight highlight;

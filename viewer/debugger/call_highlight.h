@@ -18,6 +18,11 @@ namespace tetmend::viewer {
 Highlight highlight_covering(const CallStudy& study, const PolygonView& polygon,
                              const glm::dvec3& origin);
 
+/// The pocket of the cell of the tables that the polygon shows, and the triangle that it has chosen.
+/// Empty without a cell.
+Highlight highlight_cell(const CallStudy& study, const PolygonView& polygon,
+                         const glm::dvec3& origin);
+
 /// The tets around an edge, as the caller of a recursive call has them now: a ghost.
 Highlight highlight_caller(const TetMesh& mesh, TetEdge edge, const glm::dvec3& origin);
 

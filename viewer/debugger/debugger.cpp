@@ -25,11 +25,55 @@ void Debugger::seek(std::uint64_t position) {
   const std::uint32_t before = call();
   replay_.seek(position);
   stack_ = call_stack(file_, position);
+  cell_ = 0;
   if (call() != before) study_.reset();
 }
 
 void Debugger::step(Step step, Direction direction) {
+  if (step_in_tables(step, direction)) return;
   seek(step_from(file_, position(), step, direction));
+  // Backwards, a table is full before it is emptied.
+  const bool is_back_into = step == Step::into && direction == Direction::back;
+  if (is_back_into && fills_by_steps()) cell_ = tables().cells.size();
+}
+
+bool Debugger::step_in_tables(Step step, Direction direction) {
+  if (step == Step::out || !fills_by_steps()) return false;
+  const TableFilling filling = tables();
+  const bool is_over = step == Step::over;
+  if (direction == Direction::back) {
+    if (cell_ == 0) return false;
+    cell_ = is_over ? 0 : cell_ - 1;
+    return true;
+  }
+  if (is_over && cell_ == 0) return false;  // over all of them
+  const auto diagonal = after_diagonal(filling);
+  if (cell_ == filling.cells.size() || (is_over && !diagonal)) return false;
+  cell_ = is_over ? *diagonal : cell_ + 1;
+  return true;
+}
+
+bool Debugger::fills_by_steps() const {
+  if (call() == kNoCall || !fills_tables(file_.calls()[call()], position())) return false;
+  if (shows_tables) return true;
+  if (!lesson_) return false;
+  return std::any_of(lesson_->steps.begin(), lesson_->steps.end(), [&](const LessonStep& step) {
+    const auto& focus = step.focus;
+    return step.at == position() &&
+           std::find(focus.begin(), focus.end(), Focus::tables) != focus.end();
+  });
+}
+
+TableFilling Debugger::tables() {
+  const CallStudy* here = study();
+  if (here == nullptr || !here->picture || here->picture->tables.size == 0) return {};
+  if (!fills_by_steps()) {
+    return full_tables(polygon().shell->tables);
+  }
+  TableFilling filling{cells_of(here->picture->tables)};
+  filling.filled = cell_;
+  filling.is_under_way = true;
+  return filling;
 }
 
 bool Debugger::run_to(const Condition& condition, Direction direction) {
@@ -78,6 +122,7 @@ bool Debugger::advance(double seconds) {
   const double whole = std::floor(unplayed_);
   if (whole < 1) return false;
   unplayed_ -= whole;
+  if (step_in_tables(Step::into, Direction::forward)) return true;
   const std::uint64_t before = position();
   const auto left = static_cast<double>(end() - before);
   std::uint64_t to = before + static_cast<std::uint64_t>(std::min(whole, left));
@@ -106,7 +151,9 @@ PolygonView Debugger::polygon() {
   const CallStudy& here = *study();
   const Call& made = file_.calls()[here.call];
   const bool is_in_vain = !made.accepted() && made.has_searched();
-  return polygon_at(here, position(), is_in_vain && position() >= made.events.end);
+  PolygonView view = polygon_at(here, position(), is_in_vain && position() >= made.events.end);
+  if (fills_by_steps()) view.cell = tables().here();
+  return view;
 }
 
 HistorySubject Debugger::subject_of(std::string_view text) {

@@ -14,6 +14,7 @@
 #include "explain/figures/call_figure.h"
 #include "explain/lesson_guide.h"
 #include "explain/stepper.h"
+#include "explain/table_filling.h"
 #include "explain/timeline.h"
 #include "kernel/tet_mesh.h"
 #include "trace/history.h"
@@ -57,6 +58,7 @@ class Debugger {
 
   /// Precondition: at most end(). Cost: see Replay.
   void seek(std::uint64_t position);
+  /// Where tables are filled, into goes cell by cell, and over from a cell to the next diagonal.
   void step(Step step, Direction direction);
   /// To the beginning of a call, just after its first event. Precondition: there is such a call.
   void enter(std::uint32_t call) { seek(file_.calls()[call].events.begin + 1); }
@@ -97,6 +99,11 @@ class Debugger {
   const CallStudy* study();
   /// As it is here. Precondition: the study has a picture.
   PolygonView polygon();
+  /// The tables of the call at hand: filled by steps where it fills them, while they are looked at.
+  /// Without cells where it has none.
+  TableFilling tables();
+  /// Somebody looks at them, without a lesson that does.
+  bool shows_tables = false;
   /// @throws Error as draw_call()
   figure::Drawing draw(const FigureRequest& request) { return draw_call(file_, replay_, request); }
   /// Whom a question is about, as find_subject() reads it. @throws Error as that.
@@ -138,6 +145,9 @@ class Debugger {
   template <class Look>
   void stay(const Look& look);
   std::optional<std::uint64_t> nearest_breakpoint(Direction direction, Condition* which);
+  bool step_in_tables(Step step, Direction direction);
+  /// The call at hand fills its tables here, and somebody looks at that.
+  bool fills_by_steps() const;
   ConditionSource source() { return {file_, replay_}; }
 
   TraceFile file_;
@@ -148,6 +158,7 @@ class Debugger {
   CallList list_;
   std::vector<std::uint32_t> stack_;
   std::optional<CallStudy> study_;
+  std::size_t cell_ = 0;  // of tables that are being filled: how many are
   std::optional<History> history_;
   std::optional<Ledger> ledger_;
   std::optional<FoundCalls> found_;

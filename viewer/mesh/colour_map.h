@@ -13,6 +13,7 @@ using figure::ColourMap;
 using figure::faint;
 using figure::find_colour_map;
 using figure::kBadColour;
+using figure::kCellColour;
 using figure::kChordColour;
 using figure::kConstraintColour;
 using figure::kCoreColour;

@@ -157,3 +157,50 @@ TEST_CASE("what lies under the mouse is told by its vertices: names, then lines,
     CHECK(std::count(tet.begin(), tet.end(), v) == 1);
   }
 }
+
+TEST_CASE("the cell of the tables that was filled last is a chord with its triangle") {
+  const SlotMesh mesh{TetMesh(test::shell_mesh({.degree = 5}))};
+  CallStudy study;
+  study.picture = picture_of_shell(mesh, find_slot_shell(mesh, VertexHandle(0), VertexHandle(1)));
+  RingLook look;
+  look.half = kHalf;
+  PolygonView view = polygon_at(study, 0, false);
+  const std::size_t areas = all<figure::Area>(draw_polygon(view, look)).size();
+  view.cell = cells_of(study.picture->tables).front();
+  REQUIRE(study.picture->tables.k(view.cell->i, view.cell->j) < 5);
+  const LinkedDrawing drawing = draw_polygon(view, look);
+  CHECK(all<figure::Area>(drawing).size() == areas + 1);
+  const auto strokes = all<figure::Stroke>(drawing);
+  CHECK(std::count_if(strokes.begin(), strokes.end(), [](const figure::Stroke& stroke) {
+          return stroke.pen.colour == figure::kCellColour;
+        }) == 3);
+}
+
+TEST_CASE("names of many corners stand apart, on several circles with lines to them if need be") {
+  for (const unsigned degree : {5U, 9U, 14U, 19U, 26U, 31U}) {
+    CAPTURE(degree);
+    const SlotMesh mesh{TetMesh(test::shell_mesh({.degree = degree}))};
+    CallStudy study;
+    study.picture = picture_of_shell(mesh, find_slot_shell(mesh, VertexHandle(0), VertexHandle(1)));
+    REQUIRE(study.picture->ring.size() == degree);
+    RingLook look;
+    look.half = kHalf;
+    look.name_size = 15;  // as the window has it
+    look.number_size = 0.1;
+    const LinkedDrawing drawing = draw_polygon(polygon_at(study, 0, false), look);
+    std::vector<figure::Box> boxes;
+    for (std::size_t n = 0; n < drawing.meanings.size(); ++n) {
+      const auto* text = std::get_if<figure::Text>(&drawing.drawing.shapes[n]);
+      if (text == nullptr || drawing.meanings[n].vertices.size() != 1) continue;
+      boxes.push_back(figure::box_of(*text));
+    }
+    CHECK(boxes.size() == 3 * degree);
+    for (std::size_t i = 0; i < boxes.size(); ++i) {
+      for (std::size_t j = 0; j < i; ++j) {
+        const bool is_same_name = i / 3 == j / 3;
+        if (!is_same_name) CHECK_FALSE(boxes[i].overlaps(boxes[j]));
+      }
+      CHECK((boxes[i].left > -1.05 * kHalf && boxes[i].right < 1.05 * kHalf));
+    }
+  }
+}

@@ -100,3 +100,51 @@ TEST_CASE("the deepest call has the most calls around it") {
   CHECK(deepest.depth > 1);
   for (const Call& call : debugger.file().calls()) CHECK(call.depth <= deepest.depth);
 }
+
+TEST_CASE("where a lesson speaks of the tables, steps fill them cell by cell, as its page does") {
+  Debugger debugger(TETMEND_SOURCE_DIR "/assets/lessons/4-tables.trace");
+  debugger.seek(2);
+  const std::size_t cells = debugger.tables().cells.size();
+  REQUIRE(cells == 24);  // of 6 corners
+  CHECK(debugger.tables().filled == 0);
+  for (std::size_t n = 1; n <= cells; ++n) {
+    debugger.step(Step::into, Direction::forward);
+    CHECK(debugger.position() == 2);
+    CHECK(debugger.tables().filled == n);
+    CHECK(debugger.polygon().cell->j == debugger.tables().here()->j);
+  }
+  debugger.step(Step::into, Direction::forward);
+  CHECK(debugger.position() == 3);
+  CHECK(debugger.tables().filled == cells);  // and they stay so
+  CHECK_FALSE(debugger.polygon().cell);
+  debugger.step(Step::into, Direction::back);
+  CHECK(debugger.position() == 2);
+  CHECK(debugger.tables().filled == cells);
+  debugger.step(Step::into, Direction::back);
+  CHECK(debugger.tables().filled == cells - 1);
+  debugger.step(Step::over, Direction::back);
+  CHECK(debugger.tables().filled == 0);
+  debugger.step(Step::into, Direction::forward);
+  for (const std::size_t filled : {7, 13, 19}) {  // the first cells of diagonals
+    debugger.step(Step::over, Direction::forward);
+    CHECK(debugger.tables().filled == filled);
+  }
+  debugger.step(Step::over, Direction::forward);
+  CHECK(debugger.position() == 3);
+}
+
+TEST_CASE("tables that nobody looks at are full, and steps pass over them") {
+  const test::TracedBall trace;
+  Debugger debugger(trace.path());
+  REQUIRE(debugger.run_to(parse_condition("operator shell_transformation"), Direction::forward));
+  const std::uint64_t begin = debugger.position();
+  CHECK(debugger.tables().filled == debugger.tables().cells.size());
+  debugger.step(Step::into, Direction::forward);
+  CHECK(debugger.position() == begin + 1);
+  debugger.shows_tables = true;
+  debugger.seek(begin);
+  CHECK(debugger.tables().filled == 0);
+  debugger.step(Step::into, Direction::forward);
+  CHECK(debugger.position() == begin);
+  CHECK(debugger.tables().filled == 1);
+}
