@@ -54,6 +54,7 @@ for (const spot of document.querySelectorAll("#ring .pick")) {  // its line, too
   const far = Math.max(Math.abs(spot.cx.baseVal.value), Math.abs(spot.cy.baseVal.value)) + spot.r.baseVal.value + parseFloat(getComputedStyle(spot).strokeWidth) / 2;
   if (far > 1.0001) bad.push(`ring: a corner to press of ${far}`);
 }
+const fingers = [...document.querySelectorAll("#code button:not(:disabled)")].filter(isSeen).map((e) => e.getBoundingClientRect().height);
 const shown = [];
 for (const [name, selector] of Object.entries(panels)) {
   const card = document.querySelector(selector);
@@ -70,7 +71,7 @@ for (const [name, selector] of Object.entries(panels)) {
 const size = (selector) => { const r = document.querySelector(selector).getBoundingClientRect(); return Math.min(r.width, r.height); };
 if (shown.includes("picture") && size("#stage") < 95) bad.push(`picture of ${size("#stage")}`);
 if (shown.includes("ring") && size("#ring") < 95) bad.push(`ring of ${size("#ring")}`);
-return {hash: location.hash, bad, wanted, shown, next: box(document.getElementById("lesson-next")), back: box(document.getElementById("lesson-back")), theme: document.documentElement.dataset.theme};
+return {hash: location.hash, bad, wanted, shown, fingers, next: box(document.getElementById("lesson-next")), back: box(document.getElementById("lesson-back")), theme: document.documentElement.dataset.theme};
 };
 """
 # From the first step to the last by Next alone; each once more with its question answered.
@@ -105,6 +106,8 @@ class Stage(unittest.TestCase):
     def quiet(self, where: browser.Browser, what: str) -> None:
         self.assertEqual([line for line in where.complaints() if not OF_THE_BROWSER.search(line)], [], what)
 
+    fingers: list[tuple[str, float]] = []  # lines of algorithms to be pressed, and how high they are
+
     def walk(self, where: browser.Browser, page: Path, large: bool, dark: bool) -> int:
         where.open("about:blank")
         where.open(page.as_uri())
@@ -118,6 +121,7 @@ class Stage(unittest.TestCase):
             self.assertTrue(look["shown"], what)
             self.assertLessEqual(set(look["shown"]), set(look["wanted"]) | {"picture"}, what)
             self.assertEqual(look["theme"], "dark" if dark else "light", what)
+            self.fingers += [(what, height) for height in look["fingers"]]
         wanted = [f"#lesson={n}" for n, step in enumerate(steps, 1) for _ in range(2 if "ask" in step else 1)]
         self.assertEqual([look["hash"] for look in seen], wanted, page.name)
         self.assertEqual(len({(*look["next"], *look["back"]) for look in seen}), 1, f"{page.name}: Next and Previous move")
@@ -134,6 +138,8 @@ class Stage(unittest.TestCase):
                             self.assertGreater(self.walk(where, page, large, dark), 3)
                 finally:
                     where.close()
+        self.assertGreater(len(self.fingers), 100)
+        self.assertEqual([line for line in self.fingers if line[1] < 31.9], [], "lines too low for fingers")
 
     def test_what_is_promised_is_shown_where_the_trace_has_it(self) -> None:
         """At most the first step of a lesson, before any call, has a panel less than its focus."""

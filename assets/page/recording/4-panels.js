@@ -211,7 +211,11 @@ function tableText(shell, filled, here, isFilling) {
 // --- the algorithm ---
 
 function listLines(list, lines, here) {
-  list.replaceChildren(...lines.map((text, n) => make("li", here.includes(n + 1) ? {class: "here", "aria-current": "step"} : {}, make("span", {}, ...withIndices(text)))));  // as one: parts would stand beside each other
+  list.replaceChildren(...lines.map((text, n) => {
+    const line = make("span", {}, ...withIndices(text));  // as one: parts would stand beside each other
+    line.style.setProperty("--hang", text.search(/\S/) + 2);  // where it goes on below, in letters
+    return make("li", here.includes(n + 1) ? {class: "here", "aria-current": "step"} : {}, line);
+  }));
 }
 
 function showCode(step) {

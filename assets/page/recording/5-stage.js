@@ -62,11 +62,16 @@ function fitStage() {
   const isSmall = (card) => [...card.querySelectorAll("#stage, #ring")].some((drawing) => drawing.clientHeight < 100);
   const isCut = () => overflows(main) || cards.some((card) => overflows(card) || isWide(card) || isSmall(card));
   const more = cards.some((card) => card.id === "tables-card") ? [2.2, 1.9, 1.6, 1.4, 1.2] : isColumn ? [1.3, 1.15] : [];
-  // Drawings give way where they have no column of their own; then names in tables are broken.
-  for (const [least, wrap] of [["max(10rem, 26vh)", "no"], ["8rem", "no"], ["8rem", "yes"]]) {
-    document.body.style.setProperty("--least", least);
-    document.body.dataset.wrap = wrap;
-    if (fit("--fit", [...more, ...sizes], isCut)) return;
+  // Lines to be pressed are for fingers, if that leaves their text as it is; drawings give way where they have no column
+  // of their own; then names in tables are broken.
+  const hasLines = questionAt(place.lesson)?.kind === "line" && !answers.has(place.lesson);
+  for (const finger of hasLines ? ["44px", "38px", "32px", "28px", "24px"] : ["24px"]) {
+    document.body.style.setProperty("--finger", finger);
+    for (const [least, wrap] of [["max(10rem, 26vh)", "no"], ["8rem", "no"], ["8rem", "yes"]]) {
+      document.body.style.setProperty("--least", least);
+      document.body.dataset.wrap = wrap;
+      if (fit("--fit", finger === "24px" ? [...more, ...sizes] : sizes.slice(0, 6), isCut)) return;
+    }
   }
 }
 
