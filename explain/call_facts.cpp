@@ -120,6 +120,27 @@ std::string format_target(const Call& call) {
   return text;
 }
 
+std::string_view neighbourhood_of(const Call& call) {
+  switch (call.algorithm) {
+    case Algorithm::multi_face_removal:
+      return "Virtual shell";
+    case Algorithm::cavity_insertion:
+      return "Cavity";
+    case Algorithm::polyhedron_reconnection:
+      return "Small polyhedron";
+    default:
+      break;
+  }
+  switch (call.target_size) {
+    case 1:
+      return "Ball";
+    case 2:
+      return "Shell";
+    default:
+      return "Tets of the call";
+  }
+}
+
 std::string degree_text(const CallFacts& facts) {
   if (facts.degree_before == facts.degree_after) return fmt::format("{}", facts.degree_before);
   return fmt::format("{} -> {}", facts.degree_before, facts.degree_after);

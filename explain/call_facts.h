@@ -41,6 +41,9 @@ std::string format_target(const Call& call);
 std::string short_name(const TraceFile& file, const Call& call);
 std::string short_name(std::string_view operator_name);
 
+/// The tets that a call works on, as headings say it: "Shell", "Ball", "Cavity", ... A literal.
+std::string_view neighbourhood_of(const Call& call);
+
 /// "5 -> 4"
 std::string degree_text(const CallFacts& facts);
 /// "0.074 -> 0.758": of what the call compared, or of the tets around its target.

@@ -49,3 +49,19 @@ TEST_CASE("a call is under way until its last event") {
   CHECK(format_target(shell) == "edge 0 1");
   CHECK(root_of(file, 2) == 0);
 }
+
+TEST_CASE("what a call works on has the name that its target and its operator give it") {
+  const auto name = [](Algorithm algorithm, std::uint8_t target_size) {
+    Call call;
+    call.algorithm = algorithm;
+    call.target_size = target_size;
+    return neighbourhood_of(call);
+  };
+  CHECK(name(Algorithm::shell_transformation, 2) == "Shell");
+  CHECK(name(Algorithm::edge_split, 2) == "Shell");
+  CHECK(name(Algorithm::smoothing, 1) == "Ball");
+  CHECK(name(Algorithm::multi_face_removal, 3) == "Virtual shell");
+  CHECK(name(Algorithm::cavity_insertion, 4) == "Cavity");
+  CHECK(name(Algorithm::polyhedron_reconnection, 4) == "Small polyhedron");
+  CHECK(name(Algorithm::other, 3) == "Tets of the call");
+}

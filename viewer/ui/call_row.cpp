@@ -6,6 +6,8 @@
 #include <fmt/format.h>
 #include <imgui_internal.h>
 
+#include "viewer/ui/wrapped_text.h"
+
 namespace tetmend::viewer::ui {
 
 std::string numbers_of(const Call& call) {
@@ -38,6 +40,15 @@ bool fitted_row(const std::string& text, bool is_selected, ImGuiSelectableFlags 
   ImGui::GetWindowDrawList()->AddText(ImGui::GetFont(), size,
                                       {at.x, at.y + (ImGui::GetFontSize() - size) / 2},
                                       ImGui::GetColorU32(ImGuiCol_Text), shown.c_str());
+  return is_clicked;
+}
+
+bool wrapped_row(const std::string& text, bool is_selected, ImGuiSelectableFlags flags) {
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  const std::string lines = in_lines(text, ImGui::GetContentRegionAvail().x);
+  const float height = ImGui::CalcTextSize(lines.c_str()).y;
+  const bool is_clicked = ImGui::Selectable(("##" + text).c_str(), is_selected, flags, {0, height});
+  ImGui::GetWindowDrawList()->AddText(at, ImGui::GetColorU32(ImGuiCol_Text), lines.c_str());
   return is_clicked;
 }
 

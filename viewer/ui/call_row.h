@@ -19,6 +19,8 @@ std::string spaced(std::string_view name);
 /// Like ImGui::Selectable, with `text` as its name. Text that is too wide is smaller, and what is too
 /// wide still ends in dots.
 bool fitted_row(const std::string& text, bool is_selected, ImGuiSelectableFlags flags = 0);
+/// The same in as many lines as the text needs: nothing of it is smaller or cut.
+bool wrapped_row(const std::string& text, bool is_selected, ImGuiSelectableFlags flags = 0);
 
 /// What the current column has left below its last panel: for the one list that takes it.
 float spare_room();

@@ -9,6 +9,7 @@
 #include <functional>
 
 #include <backends/imgui_impl_opengl3.h>
+#include <fmt/format.h>
 #include <imgui.h>
 #include <imgui_internal.h>
 
@@ -38,8 +39,11 @@ constexpr ImGuiWindowFlags kFixed = ImGuiWindowFlags_NoMove | ImGuiWindowFlags_N
                                     ImGuiWindowFlags_NoFocusOnAppearing;
 
 ImFont* load_font(float scale) {
+  static constexpr std::array<ImWchar, 7> kLetters = {0x20,   0xFF,   0x2013, 0x2026,
+                                                      0x221E, 0x221E, 0};
   ImFontConfig config;
   config.OversampleH = 2;
+  config.GlyphRanges = kLetters.data();
   ImFontAtlas* fonts = ImGui::GetIO().Fonts;
   const float size = std::round(kFontSize * scale);
   if (std::filesystem::exists(kFont)) return fonts->AddFontFromFileTTF(kFont, size, &config);
@@ -143,12 +147,19 @@ bool is_news(const Panel& panel, const Debugger* debugger) {
          (debugger->news == News::pair && panel.draw == &draw_both_panel);
 }
 
-/// `is_event_elsewhere`: where the trace is stands below all panels.
+/// A panel stays open or folded whatever its heading says.
+std::string heading_of(const Panel& panel, const Document& document) {
+  const std::string_view said = panel.heading ? panel.heading(document) : panel.title;
+  return fmt::format("{}###{}", said, panel.title);
+}
+
+/// `has_steps_elsewhere`: where the trace is, and the way on, stands below all panels.
 void list_panels(Session& session, const std::function<bool(const Panel&)>& is_wanted,
-                 bool is_event_elsewhere = false) {
+                 bool has_steps_elsewhere = false) {
   const bool has_trace = session.document.debugger() != nullptr;
   for (const Panel& panel : panels()) {
     if (!is_wanted(panel) || !is_shown(panel, session.document)) continue;
+    if (has_steps_elsewhere && panel.draw == &draw_step_panel) continue;
     ImGui::PushID(has_trace ? "trace" : "mesh");
     const bool is_main = !has_trace || panel.subject != Subject::mesh;
     if (is_main && (panel.is_needed == nullptr || panel.is_needed(session.document))) {
@@ -157,12 +168,11 @@ void list_panels(Session& session, const std::function<bool(const Panel&)>& is_w
     const bool comes_into_sight = is_news(panel, session.document.debugger());
     if (comes_into_sight) ImGui::SetNextItemOpen(true);
     const ImVec2 corner = ImGui::GetCursorScreenPos();
-    const bool is_open = ImGui::CollapsingHeader(panel.title);
+    const bool is_open = ImGui::CollapsingHeader(heading_of(panel, session.document).c_str());
     ImGui::PopID();
     if (!is_open) continue;
     ImGui::PushID(panel.title);
-    const bool is_short = is_event_elsewhere && panel.draw == &draw_step_panel;
-    (is_short ? &draw_step_buttons : panel.draw)(session);
+    panel.draw(session);
     ImGui::PopID();
     ImGui::Spacing();
     if (!comes_into_sight || session.document.debugger() == nullptr) continue;
@@ -178,8 +188,8 @@ void list_side(Session& session, Side side) {
 }
 
 /// Panels of a trace where there is one column. Where one enters a call or leaves all, or asks for
-/// something, the tab for that comes to the front.
-void list_in_tabs(Session& session, bool enters, bool leaves, bool is_in_call) {
+/// something, the tab for that comes to the front. `has_code`: the algorithm has a tab, too.
+void list_in_tabs(Session& session, bool enters, bool leaves, bool is_in_call, bool has_code) {
   if (!ImGui::BeginTabBar("##tabs")) return;
   const Debugger::News news = session.document.debugger()->news;
   const bool is_told = news == Debugger::News::history || news == Debugger::News::pair;
@@ -203,6 +213,10 @@ void list_in_tabs(Session& session, bool enters, bool leaves, bool is_in_call) {
   tab("Call", enters, is_to_act, is_shell, [&](const Panel& panel) {
     return panel.side == Side::right && !is_mesh(panel) && !is_to_act(panel);
   });
+  if (has_code && ImGui::BeginTabItem("Algorithm")) {
+    draw_algorithm_panel(session);
+    ImGui::EndTabItem();
+  }
   tab("Mesh", false, is_mesh);
   ImGui::EndTabBar();
 }
@@ -217,49 +231,111 @@ Area dock_algorithm(const Session& session, Area& area, float share) {
   return dock(area, std::min(algorithm_height(session), share * area.height));
 }
 
-/// What is spoken of, one below the other, the algorithm last; nothing needs to be scrolled to.
-void teach(Session& session, const Layout& layout) {
-  constexpr float kMostOfColumn = 0.56F;
+/// What stands below the panels of a trace, whatever they show.
+struct Docked {
+  float algorithm = 0;  // of the height of the column; 0: it has a tab
+  float event_lines = 0;
+};
+
+/// The lower the column is, the less: the ring is to have room above.
+Docked docked_in(const Layout& layout) {
+  constexpr float kHigh = 44, kLow = 34;  // in lines of text
+  if (!layout.is_one_column) return {0.42F, 0};
+  const float lines = layout.right.height / ImGui::GetFontSize();
+  if (lines >= kHigh) return {0.3F, 4.5F};
+  if (lines >= kLow) return {0.25F, 4};
+  return {0, 3.2F};
+}
+
+/// In tabs, what has happened and the way on would be out of sight where the ring is seen.
+void dock_place(Session& session, Area& area, float event_lines) {
+  if (begin_area("##event", dock(area, event_lines * ImGui::GetTextLineHeightWithSpacing()))) {
+    draw_last_event(session);
+    draw_stack(session);
+    ImGui::End();
+  }
+  const float height = 2 * ImGui::GetFrameHeightWithSpacing() + ImGui::GetStyle().WindowPadding.y;
+  if (begin_area("##steps", dock(area, height), ImGuiWindowFlags_NoScrollbar)) {
+    constexpr bool kShort = true;
+    draw_step_buttons(session, kShort);
+    ImGui::End();
+  }
+}
+
+/// The ring is a square: the rest of a wide column is for what stands beside it.
+Area take_left(Area& area) {
+  constexpr float kMost = 0.44F;
+  const float width = std::round(std::min(kMost * area.width, area.height));
+  const Area left = {area.x, area.y, width, area.height};
+  area.x += width;
+  area.width -= width;
+  return left;
+}
+
+/// What is spoken of, one below the other, the algorithm last, or in a wide column side by side; nothing
+/// needs to be scrolled to.
+void teach_column(Session& session, const Layout& layout) {
+  constexpr float kMostOfColumn = 0.5F;
+  constexpr float kWide = 1.15F;
   const auto shows = [&](Focus focus) {
     return std::find(layout.focus.begin(), layout.focus.end(), focus) != layout.focus.end();
   };
-  const int others =
-      (shows(Focus::ring) ? 1 : 0) + (shows(Focus::tables) ? 1 : 0) + (shows(Focus::tree) ? 1 : 0);
-  Area column = layout.right;
-  Area code;
-  if (shows(Focus::algorithm)) {
-    code = dock_algorithm(session, column, others == 0 ? 1 : kMostOfColumn);
-  }
-  const float height = column.height / static_cast<float>(std::max(others, 1));
-  const auto show = [&](Focus focus, const char* name, void (*draw)(Session&)) {
-    if (!shows(focus) || column.is_empty()) return;
-    if (begin_area(name, {column.x, column.y, column.width, height})) {
-      draw(session);
-      ImGui::End();
-    }
-    column.y += height;
-  };
-  show(Focus::tree, "##tree", &draw_tree);
-  // Beside others the ring has the room that words would take.
   const auto ring = [](Session& s) { draw_ring(s, false); };
-  const auto ring_alone = [](Session& s) {
-    constexpr std::size_t kMostCalls = 2;
-    draw_stack(s, kMostCalls);
-    draw_ring(s);
-  };
-  show(Focus::ring, "##teaching", others == 1 ? +ring_alone : +ring);
-  show(Focus::tables, "##tables", &draw_tables);
-  if (begin_area("##code", code)) {
+  const auto ring_alone = [](Session& s) { draw_ring(s); };
+  const auto code = [](Session& s) {
     constexpr bool kWhole = true;
-    draw_algorithm_panel(session, kWhole);
-    ImGui::End();
+    draw_algorithm_panel(s, kWhole);
+  };
+  struct Part {
+    Focus focus;
+    const char* name;
+    void (*draw)(Session&);
+  };
+  std::vector<Part> parts;
+  for (const Part& part :
+       {Part{Focus::tree, "##tree", &draw_tree}, Part{Focus::ring, "##teaching", ring},
+        Part{Focus::tables, "##tables", &draw_tables}}) {
+    if (shows(part.focus)) parts.push_back(part);
   }
+  // Beside others the ring has the room that words would take.
+  if (parts.size() == 1 && shows(Focus::ring)) parts[0].draw = ring_alone;
+  const auto show = [&](const Part& part, const Area& area) {
+    if (!begin_area(part.name, area)) return;
+    part.draw(session);
+    ImGui::End();
+  };
+  const Part algorithm = {Focus::algorithm, "##code", code};
+  Area column = layout.right;
+  const bool is_pair = parts.size() + (shows(Focus::algorithm) ? 1 : 0) == 2;
+  if (is_pair && shows(Focus::ring) && column.width > kWide * column.height) {
+    show({Focus::ring, "##teaching", ring}, take_left(column));
+    std::erase_if(parts, [](const Part& part) { return part.focus == Focus::ring; });
+  }
+  if (shows(Focus::algorithm)) {
+    const Area area = dock_algorithm(session, column, parts.empty() ? 1 : kMostOfColumn);
+    show(algorithm, area);
+  }
+  const float height = column.height / static_cast<float>(std::max<std::size_t>(parts.size(), 1));
+  for (const Part& part : parts) {
+    show(part, {column.x, column.y, column.width, height});
+    column.y += height;
+  }
+}
+
+void teach(Session& session, const Layout& layout) {
+  teach_column(session, layout);
   if (begin_area("##lesson", layout.strip)) {
     if (session.document.debugger()->lesson()) {
-      draw_lesson_panel(session);
+      draw_lesson_text(session);
     } else {
       draw_last_event(session);
+      constexpr std::size_t kMostCalls = 3;
+      draw_stack(session, kMostCalls);
     }
+    ImGui::End();
+  }
+  if (begin_area("##bar", layout.bar, ImGuiWindowFlags_NoScrollbar)) {
+    draw_lesson_bar(session);
     ImGui::End();
   }
 }
@@ -467,9 +543,6 @@ void Interface::draw() const {
 }
 
 void Interface::panels_around(Session& session, const Layout& layout) {
-  constexpr float kMostOfColumn = 0.42F;
-  constexpr float kMostOfOnlyColumn = 0.32F;
-  constexpr float kEventLines = 5.5F;
   if (layout.is_teaching) return teach(session, layout);
   if (begin_area("##left", layout.left)) {
     list_side(session, Side::left);
@@ -482,24 +555,17 @@ void Interface::panels_around(Session& session, const Layout& layout) {
   const bool enters = is_in_call && !was_in_call_;
   const bool leaves = !is_in_call && was_in_call_;
   was_in_call_ = is_in_call;
-  if (has_trace && !right.is_empty()) {
-    const float share = layout.is_one_column ? kMostOfOnlyColumn : kMostOfColumn;
-    if (begin_area("##algorithm", dock_algorithm(session, right, share))) {
+  const Docked docked = docked_in(layout);
+  if (has_trace && !right.is_empty() && docked.algorithm > 0) {
+    if (begin_area("##algorithm", dock_algorithm(session, right, docked.algorithm))) {
       draw_algorithm_panel(session);
       ImGui::End();
     }
   }
-  // In tabs, what has happened would be out of sight where the ring is seen.
-  if (layout.is_one_column && is_in_call) {
-    if (begin_area("##event", dock(right, kEventLines * ImGui::GetTextLineHeightWithSpacing()))) {
-      draw_last_event(session);
-      draw_stack(session);
-      ImGui::End();
-    }
-  }
+  if (layout.is_one_column && is_in_call) dock_place(session, right, docked.event_lines);
   if (begin_area("##right", right)) {
     if (layout.is_one_column && has_trace) {
-      list_in_tabs(session, enters, leaves, is_in_call);
+      list_in_tabs(session, enters, leaves, is_in_call, docked.algorithm == 0);
     } else {
       if (layout.is_one_column) list_side(session, Side::left);
       list_side(session, Side::right);

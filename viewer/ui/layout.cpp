@@ -21,8 +21,9 @@ constexpr float kLowStripHeight = 170;
 constexpr float kMenuHeight = 24;
 constexpr float kStatusHeight = 26;
 constexpr float kTeachingWidth = 0.38F;     // of the window
-constexpr float kWideTeachingWidth = 0.5F;  // where the picture is not spoken of
-constexpr float kTeachingHeight = 250;      // without a text
+constexpr float kWideTeachingWidth = 0.6F;  // where the picture is not spoken of
+constexpr float kTeachingHeight = 190;      // without a text
+constexpr float kBarHeight = 58;            // buttons for fingers, and a margin
 constexpr float kMostTextHeight = 0.45F;    // of the window
 constexpr float kLeastTeachingWidth = 1100;
 constexpr float kLeastTeachingHeight = 680;
@@ -48,26 +49,24 @@ std::vector<Focus> focus_of(const Debugger& debugger) {
   return focus;
 }
 
-/// For the longest step, so that its buttons stay where they are: title, buttons, text, question.
-float height_of_text(const Debugger& debugger, float width, float most, float scale) {
-  if (!debugger.lesson()) return kTeachingHeight * scale;
-  constexpr float kLetter = 0.58F;  // of the size of the text, at most
+/// Of the text and the question of a step; between steps there is what has happened.
+float height_of_text(const Debugger& debugger, bool is_step, float width, float most, float scale) {
+  if (!debugger.lesson() || !is_step) return kTeachingHeight * scale;
+  constexpr float kLetter = 0.56F;  // of the size of the text, at most
+  constexpr float kLine = 1.2F;
   const float size = 16 * kTeachingText * scale;
   const float letters = (width - 2 * size) / (kLetter * size);
-  const auto lines_of = [&](const std::string& text) {
-    return std::ceil(static_cast<float>(text.size()) / letters);
-  };
-  std::map<std::uint64_t, float> lines;  // of all steps at one place
-  for (const LessonStep& step : debugger.lesson()->steps) {
-    lines[step.at] += lines_of(step.text) + (step.ask ? lines_of(step.ask->text) : 0);
+  float lines = 0;
+  for (const LessonStep& step : debugger.lesson()->steps) {  // all at one place are told
+    if (step.at != debugger.position()) continue;
+    lines += std::ceil(static_cast<float>(step.text.size()) / letters);
+    if (step.ask) lines += std::ceil(static_cast<float>(step.ask->text.size()) / letters);
   }
-  float longest = 1;
-  for (const auto& [at, count] : lines) longest = std::max(longest, count);
-  return std::min(most, (1.35F * longest + 3.6F) * size);
+  return std::min(most, (kLine * lines + 1) * size);
 }
 
 /// At a step of a lesson the text stands below picture and column; elsewhere the column, for ring and
-/// algorithm, is as high as the window.
+/// algorithm, is as high as the window. The buttons are at the bottom, however long the text is.
 void lay_out_teaching(const Debugger& debugger, Layout& layout, float width, float top,
                       float bottom, float scale) {
   layout.is_teaching = true;
@@ -79,12 +78,14 @@ void lay_out_teaching(const Debugger& debugger, Layout& layout, float width, flo
   const bool has_column = layout.focus.back() != Focus::picture;
   const float share = !has_column ? 0 : has_picture ? kTeachingWidth : kWideTeachingWidth;
   const float side = std::round(share * width);
+  const float bar = debugger.lesson() ? std::round(kBarHeight * scale) : 0;
+  layout.bar = {0, bottom - bar, is_step ? width : width - side, bar};
   const float strip =
-      std::round(height_of_text(debugger, width, kMostTextHeight * (bottom - top), scale));
-  layout.strip = {0, bottom - strip, is_step ? width : width - side, strip};
-  const float below = is_step ? strip : 0;
+      std::round(height_of_text(debugger, is_step, width, kMostTextHeight * (bottom - top), scale));
+  layout.strip = {0, bottom - bar - strip, layout.bar.width, strip};
+  const float below = is_step ? strip + bar : 0;
   if (has_column) layout.right = {width - side, top, side, bottom - below - top};
-  layout.canvas = {0, top, width - side, bottom - strip - top};
+  layout.canvas = {0, top, width - side, bottom - bar - strip - top};
 }
 
 }  // namespace

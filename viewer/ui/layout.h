@@ -19,6 +19,7 @@ struct Layout {
   Area canvas;
   Area left, right;
   Area strip;  ///< under the picture
+  Area bar;    ///< while a lesson is taught: its buttons, which stay where they are
   Area status;
   bool is_one_column =
       false;  ///< no room for two: all panels are in the right one, of a trace in tabs

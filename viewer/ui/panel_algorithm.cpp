@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 #include <imgui.h>
@@ -21,49 +23,74 @@ constexpr float kCallerLines = 4.5F;  // below the code, with t
 constexpr float kNumbers = 2.2F;      // width of their column, in units of the text
 constexpr float kGap = 1;             // between its lines, in pixels
 
-/// As high as all lines, or as there is room for. Gives how much smaller the lines must be to be seen
-/// all.
-float begin_lines(const Pseudocode& code, float lines_below) {
-  const float all =
-      static_cast<float>(code.lines.size()) * (ImGui::GetTextLineHeight() + kGap) + 4 * kGap;
-  const float room =
-      ImGui::GetContentRegionAvail().y - lines_below * ImGui::GetTextLineHeightWithSpacing();
-  ImGui::BeginChild("##lines", {0, std::min(all, std::max(room, 3 * ImGui::GetFontSize()))});
-  return std::min(1.0F, room / all);
+/// `width` of lines with their numbers. All of it in the size of the text of the current window.
+std::vector<CodeLine> wrap_code(const Pseudocode& code, float width) {
+  const float room = width - kNumbers * ImGui::GetFontSize();
+  std::vector<CodeLine> wrapped;
+  for (const std::string_view line : code.lines) wrapped.push_back(code_line(line, room));
+  return wrapped;
 }
 
-/// Of the current window: `share` of their size, or less, so that no line is cut.
-void shrink_text(const Pseudocode& code, float share) {
-  constexpr float kLeast = 0.6F;
-  ImGui::SetWindowFontScale(1);
-  float widest = 0;
-  for (const std::string_view line : code.lines) {
-    widest = std::max(widest, ImGui::CalcTextSize(line.data()).x);  // literals
+float height_of(const std::vector<CodeLine>& lines) {
+  float height = 4 * kGap;
+  for (const CodeLine& line : lines) {
+    height += static_cast<float>(line.rows()) * ImGui::GetTextLineHeight() + kGap;
   }
-  const float needed = widest + kNumbers * ImGui::GetFontSize();
-  const float fitting = std::min(share, ImGui::GetContentRegionAvail().x / needed);
-  if (fitting < 1) ImGui::SetWindowFontScale(std::max(kLeast, fitting));
+  return height;
+}
+
+float lines_below(bool is_whole) {
+  constexpr float kFew = 3.2F;  // of the caller, where the column is wide
+  return is_whole ? kFew : kCallerLines;
+}
+
+/// Makes the text of the window as small as it needs to be seen whole.
+void fit_text(const Pseudocode& code) {
+  constexpr float kLeast = 0.6F;
+  constexpr float kStep = 0.05F;
+  const float room = ImGui::GetContentRegionAvail().y;
+  constexpr float kTitle = 1;
+  constexpr float kLeastUnbroken = 0.8F;  // below that, lines rather have breaks
+  for (const bool is_unbroken : {true, false}) {
+    for (float share = 1; share > (is_unbroken ? kLeastUnbroken : kLeast); share -= kStep) {
+      ImGui::SetWindowFontScale(share);
+      const auto lines = wrap_code(code, ImGui::GetContentRegionAvail().x);
+      const bool has_breaks = std::any_of(lines.begin(), lines.end(),
+                                          [](const CodeLine& line) { return line.rows() > 1; });
+      const float height =
+          height_of(lines) + (kTitle + lines_below(true)) * ImGui::GetTextLineHeightWithSpacing();
+      if (height <= room && !(is_unbroken && has_breaks)) return;
+    }
+  }
 }
 
 /// `is_new`: the line is to be brought into sight.
 void show_code(const Pseudocode& code, unsigned line, bool is_new, bool is_whole) {
+  if (is_whole) fit_text(code);
   wrapped_text(code.title);
-  constexpr float kFew = 3.2F;  // of the caller, where the column is wide
-  const float share = begin_lines(code, is_whole ? kFew : kCallerLines);
-  shrink_text(code, is_whole ? share : 1);
-  ImDrawList* list = ImGui::GetWindowDrawList();
+  const ImVec2 avail = ImGui::GetContentRegionAvail();
+  const float room =
+      std::max(avail.y - lines_below(is_whole) * ImGui::GetTextLineHeightWithSpacing(),
+               3 * ImGui::GetFontSize());
+  std::vector<CodeLine> lines = wrap_code(code, avail.x);
+  if (height_of(lines) > room) lines = wrap_code(code, avail.x - ImGui::GetStyle().ScrollbarSize);
+  ImGui::BeginChild("##lines", {0, std::min(height_of(lines), room)});
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {ImGui::GetStyle().ItemSpacing.x, kGap});
-  for (unsigned i = 1; i <= code.lines.size(); ++i) {
+  ImDrawList* list = ImGui::GetWindowDrawList();
+  for (unsigned i = 1; i <= lines.size(); ++i) {
+    const CodeLine& shown = lines[i - 1];
     const ImVec2 at = ImGui::GetCursorScreenPos();
+    const float height = static_cast<float>(shown.rows()) * ImGui::GetTextLineHeight();
     if (i == line) {
-      list->AddRectFilled(
-          {at.x - 2, at.y - 1},
-          {at.x + ImGui::GetContentRegionAvail().x, at.y + ImGui::GetTextLineHeight() + 1},
-          ImGui::GetColorU32(ImGuiCol_Header), 3);
+      list->AddRectFilled({at.x - 2, at.y - 1},
+                          {at.x + ImGui::GetContentRegionAvail().x, at.y + height + 1},
+                          ImGui::GetColorU32(ImGuiCol_Header), 3);
     }
     ImGui::TextDisabled("%2u", i);
     ImGui::SameLine(kNumbers * ImGui::GetFontSize());
-    indexed_text(code.lines[i - 1]);
+    ImGui::BeginGroup();
+    show_code_line(shown);
+    ImGui::EndGroup();
     if (i == line && is_new) ImGui::SetScrollHereY(0.5F);
   }
   ImGui::PopStyleVar();
@@ -80,6 +107,26 @@ bool is_new_place(std::uint64_t position) {
   if (*shown != here) *since = 0;
   *shown = here;
   return (*since)++ < kLayouts;
+}
+
+void tell_caller(const CodePlace& caller) {
+  const std::string_view title = caller.code->title;
+  const std::string name(title.substr(0, title.find(':')));
+  ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
+  wrapped_text(fmt::format("called from line {} of {}:", caller.line, name));
+  ImGui::PopStyleColor();
+  const std::string_view line = caller.code->lines[caller.line - 1];
+  const std::string on =
+      caller.goes_on > 0 ? fmt::format("; goes on at line {}", caller.goes_on) : "";
+  wrapped_text(std::string(line.substr(line.find_first_not_of(' '))) + on);
+}
+
+/// While tables are filled, Algorithm 2 is at work: at the line that has filled the cell.
+void show_filling(Debugger& debugger, const CodePlace& caller, bool is_whole) {
+  constexpr unsigned kFills = 13;
+  const std::uint64_t place = debugger.position() + 1000 * debugger.tables().filled;
+  show_code(table_code(), kFills, is_new_place(place), is_whole);
+  if (caller.line > 0) tell_caller(caller);
 }
 
 /// Of an operator without an algorithm here: what it does, in one sentence.
@@ -115,7 +162,7 @@ float algorithm_height(const Session& session) {
 }
 
 void draw_algorithm_panel(Session& session, bool is_whole) {
-  const Debugger& debugger = *session.document.debugger();
+  Debugger& debugger = *session.document.debugger();
   const auto& stack = debugger.stack();
   const auto place_of = [&](std::size_t i) {
     return code_place(debugger.file(), stack, i, debugger.position());
@@ -126,6 +173,7 @@ void draw_algorithm_panel(Session& session, bool is_whole) {
     if (!stack.empty()) tell_purpose(session.document.live.registry(), debugger);
     return;
   }
+  if (debugger.tables().here()) return show_filling(debugger, here, is_whole);
   show_code(*here.code, here.line, is_new_place(debugger.position()), is_whole);
   const auto visit = debugger.visit();
   if (visit && pass.code != nullptr) {
@@ -136,13 +184,7 @@ void draw_algorithm_panel(Session& session, bool is_whole) {
   if (stack.empty()) return;
   const CodePlace caller = stack.size() > 1 ? place_of(stack.size() - 2) : pass;
   if (caller.code == nullptr) return;
-  const std::string_view title = caller.code->title;
-  const std::string name(title.substr(0, title.find(':')));
-  ImGui::TextDisabled("called from line %u of %s:", caller.line, name.c_str());
-  const std::string_view line = caller.code->lines[caller.line - 1];
-  const std::string on =
-      caller.goes_on > 0 ? fmt::format("; goes on at line {}", caller.goes_on) : "";
-  wrapped_text(std::string(line.substr(line.find_first_not_of(' '))) + on);
+  tell_caller(caller);
 }
 
 }  // namespace tetmend::viewer::ui

@@ -10,6 +10,7 @@
 #include "viewer/ui/call_row.h"
 #include "viewer/ui/drawing_canvas.h"
 #include "viewer/ui/panels.h"
+#include "viewer/ui/wrapped_text.h"
 
 namespace tetmend::viewer::ui {
 
@@ -87,11 +88,11 @@ void draw_row(Session& session, const CallRow& row) {
                       outcome_text(call, debugger.position()).c_str(), tried.c_str());
   }
   const CallFacts& facts = debugger.facts(row.call);
-  ImGui::TableNextColumn();
   const bool is_done = debugger.position() >= call.events.end;
-  ImGui::TextUnformatted(until_now(degree_text(facts), is_done).c_str());
-  ImGui::TableNextColumn();
-  ImGui::TextUnformatted(until_now(quality_text(call, facts), is_done).c_str());
+  for (const std::string& text : {degree_text(facts), quality_text(call, facts)}) {
+    ImGui::TableNextColumn();
+    right_aligned(until_now(text, is_done));
+  }
   ImGui::PopID();
 }
 
@@ -127,6 +128,26 @@ float table_height() {
   return std::clamp(room, kLeastRows * row, kMostRows * row);
 }
 
+/// The longest numbers of the rows that are in sight: what they leave is for the names. In the table.
+std::pair<std::string, std::string> longest_numbers(Debugger& debugger,
+                                                    const std::vector<CallRow>& rows) {
+  const float height = ImGui::GetTextLineHeight() + 2 * ImGui::GetStyle().CellPadding.y;
+  const auto first = static_cast<std::size_t>(ImGui::GetScrollY() / height);
+  const auto count = static_cast<std::size_t>(ImGui::GetWindowHeight() / height) + 1;
+  std::pair<std::string, std::string> longest;
+  for (std::size_t i = first; i < std::min(first + count, rows.size()); ++i) {
+    const CallRow& row = rows[i];
+    const Call& call = debugger.file().calls()[row.call];
+    const CallFacts& facts = debugger.facts(row.call);
+    const auto take = [](std::string& most, const std::string& text) {
+      if (text.size() > most.size()) most = text;
+    };
+    take(longest.first, degree_text(facts));
+    take(longest.second, quality_text(call, facts));
+  }
+  return longest;
+}
+
 void list_rows(Session& session, float height) {
   Debugger& debugger = *session.document.debugger();
   const std::vector<CallRow>& rows = debugger.rows();
@@ -134,10 +155,10 @@ void list_rows(Session& session, float height) {
   if (!ImGui::BeginTable("##calls", 3, kLooks, {0, height})) return;
   ImGui::TableSetupScrollFreeze(0, 1);
   ImGui::TableSetupColumn("level, operator, target", ImGuiTableColumnFlags_WidthStretch);
-  // As wide as what is in sight: the rest is for operator and target.
-  ImGui::TableSetupColumn("degree", ImGuiTableColumnFlags_WidthFixed);
-  ImGui::TableSetupColumn("worst q", ImGuiTableColumnFlags_WidthFixed);
-  ImGui::TableHeadersRow();
+  const auto [degree, quality] = longest_numbers(debugger, rows);
+  number_column("degree", degree);
+  number_column("worst q", quality);
+  headers_row(1);
   scroll_to(rows, debugger);
   ImGuiListClipper clipper;
   clipper.Begin(static_cast<int>(rows.size()));
@@ -156,7 +177,42 @@ void draw_calls_panel(Session& session) {
   explain_marks();
 }
 
+namespace {
+
+/// What the rows of a small tree need, so that no name is cut.
+float width_of_tree(Debugger& debugger) {
+  constexpr float kBeside = 3.4F;  // the sign to unfold, the mark, gaps; in sizes of the text
+  constexpr float kIndent = 0.5F;
+  const float font = ImGui::GetFontSize();
+  float names = 0, degrees = 0, qualities = 0;
+  const auto take = [](float& most, const std::string& text) {
+    most = std::max(most, ImGui::CalcTextSize(text.c_str()).x);
+  };
+  for (const CallRow& row : debugger.rows()) {
+    const Call& call = debugger.file().calls()[row.call];
+    const CallFacts& facts = debugger.facts(row.call);
+    float name = 0;
+    take(name,
+         fmt::format("{} {} {}", call.level, short_name(debugger.file(), call), numbers_of(call)));
+    names = std::max(names, name + (kBeside + kIndent * static_cast<float>(row.indent)) * font);
+    take(degrees, degree_text(facts));
+    take(qualities, quality_text(call, facts));
+  }
+  take(degrees, "degree");
+  return names + degrees + qualities + 6 * ImGui::GetStyle().CellPadding.x;
+}
+
+}  // namespace
+
 void draw_tree(Session& session) {
+  constexpr std::size_t kFew = 40;
+  constexpr float kLeast = 0.6F;
+  Debugger& debugger = *session.document.debugger();
+  ImGui::SetWindowFontScale(1);
+  if (debugger.rows().size() <= kFew) {
+    const float share = ImGui::GetContentRegionAvail().x / width_of_tree(debugger);
+    ImGui::SetWindowFontScale(std::clamp(share, kLeast, 1.0F));
+  }
   list_rows(session, ImGui::GetContentRegionAvail().y);
 }
 

@@ -6,6 +6,7 @@
 #include <imgui.h>
 
 #include "viewer/ui/panels.h"
+#include "viewer/ui/slider.h"
 
 namespace tetmend::viewer::ui {
 
@@ -35,7 +36,7 @@ void draw_cuts_panel(Session& session) {
       constexpr double kLow = -1;
       constexpr double kHigh = 1;
       ImGui::SetNextItemWidth(-1);
-      ImGui::SliderScalar("##position", ImGuiDataType_Double, &cut.position, &kLow, &kHigh, "%.3f");
+      slider("##position", ImGuiDataType_Double, &cut.position, &kLow, &kHigh, "%.3f");
       set_normal(cut, "x", {1, 0, 0});
       set_normal(cut, "y", {0, 1, 0});
       set_normal(cut, "z", {0, 0, 1});

@@ -12,6 +12,7 @@
 #include "viewer/overlay.h"
 #include "viewer/ui/call_row.h"
 #include "viewer/ui/panels.h"
+#include "viewer/ui/slider.h"
 
 namespace tetmend::viewer::ui {
 
@@ -53,8 +54,7 @@ void choose_colour(SceneSettings& scene, bool has_reference) {
 
 void slide(const char* title, double& value, double low, double high, const char* format) {
   name(title);
-  ImGui::SliderScalar(fmt::format("##{}", title).c_str(), ImGuiDataType_Double, &value, &low, &high,
-                      format);
+  slider(fmt::format("##{}", title).c_str(), ImGuiDataType_Double, &value, &low, &high, format);
 }
 
 /// On without a reference, it asks for one.
@@ -159,7 +159,9 @@ void draw_display_panel(Session& session) {
   ImGui::Checkbox("constraints", &scene.constraints);
   constexpr int kMostLayers = 20;
   name("peel");
-  ImGui::SliderInt("##peel", &scene.peel, 0, std::max(kMostLayers, scene.peel), "%d layers");
+  const int none = 0;
+  const int most = std::max(kMostLayers, scene.peel);
+  slider("##peel", ImGuiDataType_S32, &scene.peel, &none, &most, "%d layers");
   scene.peel = std::max(scene.peel, 0);
   slide("shrink", scene.shrink, 0, 0.9, "%.2f");
   slide("ghosts", scene.ghosts, 0, 1, "%.2f");

@@ -42,7 +42,7 @@ void list_parts(Session& session, const History& history) {
       const Call& call = file.calls()[part.nearest];
       if (!call.accepted()) text += fmt::format("; nearest {}", part.nearest);
     }
-    if (ImGui::Selectable(text.c_str())) asked = as_question(part.part);
+    if (wrapped_row(text, false)) asked = as_question(part.part);
     if (ImGui::IsItemHovered()) session.document.hovering = {part.part};
   }
   if (!asked.empty()) run_from_window(find_command("history"), session, {asked});
@@ -55,31 +55,49 @@ std::string ending_of(const Call& call) {
   return fmt::format("{:.4f} -> {:.4f}", call.worst_before, call.worst_after);
 }
 
+constexpr std::string_view kLongest = "0.0000 -> 0.0000";
+
+/// A row of a table: mark, number, what was asked for, how it ended. True: it was clicked.
+bool show_call(Session& session, std::uint32_t number) {
+  const Debugger& debugger = *session.document.debugger();
+  const Call& call = debugger.file().calls()[number];
+  const std::string name = short_name(debugger.file(), call);
+  const std::string ending = ending_of(call);
+  ImGui::TableNextRow();
+  ImGui::TableNextColumn();
+  show_mark(outcome_of(call));
+  ImGui::TableNextColumn();
+  right_aligned(fmt::format("{}", number));
+  ImGui::TableNextColumn();
+  ImGui::PushID(static_cast<int>(number));
+  const bool is_clicked =
+      wrapped_row(fmt::format("{} {}", name, numbers_of(call)), debugger.call() == number,
+                  ImGuiSelectableFlags_SpanAllColumns);
+  if (ImGui::IsItemHovered()) {
+    session.document.hovering = session.document.pointed_call(number);
+    const std::string reason(debugger.file().reason(call));
+    ImGui::SetTooltip("%u %s %s: %s, %s\n%s", number, name.c_str(), format_target(call).c_str(),
+                      call.verdict_in_words().c_str(), ending.c_str(), reason.c_str());
+  }
+  ImGui::PopID();
+  ImGui::TableNextColumn();
+  wrapped_text(ending);
+  return is_clicked;
+}
+
 /// A click goes to the call.
 void show_calls(Session& session, const History& history, bool in_trials) {
-  const Debugger& debugger = *session.document.debugger();
+  const std::size_t all = session.document.debugger()->file().calls().size();
   std::uint32_t chosen = kNoCall;
+  if (!ImGui::BeginTable("##history", 4, ImGuiTableFlags_RowBg)) return;
+  ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthFixed, ImGui::GetFontSize());
+  number_column("call", fmt::format("{}", all));
+  ImGui::TableSetupColumn("target", ImGuiTableColumnFlags_WidthStretch);
+  number_column("", std::string(kLongest));
   for (const HistoryCall& each : history.calls) {
-    if (each.in_trial != in_trials) continue;
-    const Call& call = debugger.file().calls()[each.call];
-    show_mark(outcome_of(call));
-    ImGui::SameLine();
-    ImGui::PushID(static_cast<int>(each.call));
-    const std::string name = short_name(debugger.file(), call);
-    const std::string ending = ending_of(call);
-    if (fitted_row(fmt::format("{} {} {}: {}", each.call, name, numbers_of(call), ending),
-                   debugger.call() == each.call)) {
-      chosen = each.call;
-    }
-    if (ImGui::IsItemHovered()) {
-      session.document.hovering = session.document.pointed_call(each.call);
-      const std::string reason(debugger.file().reason(call));
-      ImGui::SetTooltip("%u %s %s: %s, %s\n%s", each.call, name.c_str(),
-                        format_target(call).c_str(), call.verdict_in_words().c_str(),
-                        ending.c_str(), reason.c_str());
-    }
-    ImGui::PopID();
+    if (each.in_trial == in_trials && show_call(session, each.call)) chosen = each.call;
   }
+  ImGui::EndTable();
   if (chosen != kNoCall) run_from_window(find_command("enter"), session, {chosen});
 }
 
@@ -113,7 +131,7 @@ void list_visits(Session& session, const History& history) {
     if (around != file.passes().end()) {
       text += fmt::format(", {} {}", spaced(file.name(around->name)), around->round);
     }
-    if (fitted_row(text, session.document.debugger()->visit() == number)) {
+    if (wrapped_row(text, session.document.debugger()->visit() == number)) {
       chosen = visit.events.begin + 1;
     }
     if (ImGui::IsItemHovered()) session.document.hovering = {history.subject};

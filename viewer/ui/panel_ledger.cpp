@@ -208,8 +208,7 @@ void draw_found_panel(Session& session) {
   if (ImGui::BeginTable("##found", 2, kLooks, {0, kRows * ImGui::GetTextLineHeightWithSpacing()})) {
     ImGui::TableSetupScrollFreeze(0, 1);
     ImGui::TableSetupColumn("call", ImGuiTableColumnFlags_WidthStretch);
-    // As wide as what is in sight: of the worst tet, or others were the reason.
-    ImGui::TableSetupColumn("quality lacking", ImGuiTableColumnFlags_WidthFixed);
+    number_column("quality lacking", "0.0000");  // of the worst tet, or others were the reason
     headers_row(1);
     ImGuiListClipper clipper;
     clipper.Begin(static_cast<int>(found.calls.size()));

@@ -13,6 +13,7 @@
 #include "viewer/ui/call_row.h"
 #include "viewer/ui/panels.h"
 #include "viewer/ui/parameter_field.h"
+#include "viewer/ui/slider.h"
 #include "viewer/ui/wrapped_text.h"
 
 namespace tetmend::viewer::ui {
@@ -64,14 +65,14 @@ std::string edit_number(const ScheduleParameter& parameter, const std::string& t
     constexpr std::int64_t kStep = 1;
     changed = parameter.high - parameter.low > kWide
                   ? ImGui::InputScalar(name, ImGuiDataType_S64, &whole, &kStep)
-                  : ImGui::SliderScalar(name, ImGuiDataType_S64, &whole, &low, &high, "%lld",
-                                        ImGuiSliderFlags_AlwaysClamp);
+                  : slider(name, ImGuiDataType_S64, &whole, &low, &high, "%lld",
+                           ImGuiSliderFlags_AlwaysClamp);
     value = static_cast<double>(whole);
   } else {
     changed = parameter.high - parameter.low > kWide
                   ? ImGui::InputDouble(name, &value)
-                  : ImGui::SliderScalar(name, ImGuiDataType_Double, &value, &parameter.low,
-                                        &parameter.high, "%.3g", ImGuiSliderFlags_AlwaysClamp);
+                  : slider(name, ImGuiDataType_Double, &value, &parameter.low, &parameter.high,
+                           "%.3g", ImGuiSliderFlags_AlwaysClamp);
   }
   if (!changed) return {};
   return fmt::format("{}", std::clamp(value, parameter.low, parameter.high));
@@ -209,9 +210,15 @@ void list_passes(const LiveProgress& run) {
   if (!ImGui::BeginTable("##passes", 4, kLooks, {0, height})) return;
   ImGui::TableSetupScrollFreeze(0, 1);
   ImGui::TableSetupColumn("pass", ImGuiTableColumnFlags_WidthStretch);
-  ImGui::TableSetupColumn("bad", ImGuiTableColumnFlags_WidthFixed);
-  ImGui::TableSetupColumn("worst", ImGuiTableColumnFlags_WidthFixed);
-  ImGui::TableSetupColumn("s", ImGuiTableColumnFlags_WidthFixed);
+  std::size_t most = 0;
+  double longest = 0;
+  for (const LivePass& pass : run.passes) {
+    most = std::max(most, pass.after.n_bad);
+    longest = std::max(longest, pass.seconds);
+  }
+  number_column("bad", grouped(most));
+  number_column("worst", "0.0000");
+  number_column("s", fmt::format("{:.2f}", longest));
   headers_row(1);
   for (auto pass = run.passes.rbegin(); pass != run.passes.rend(); ++pass) {
     ImGui::TableNextRow();
@@ -234,11 +241,12 @@ void list_passes(const LiveProgress& run) {
 /// How a run is watched: speed, camera, breakpoints.
 void watch(Session& session) {
   LiveRun& live = session.document.live;
-  constexpr float kMost = 100;
+  const float none = 0;
+  const float most = 100;
   auto speed = static_cast<float>(live.speed());
-  const char* format = speed > 0 ? "%.1f a second" : "as fast as it can";
-  if (ImGui::SliderFloat(name_field("changes").c_str(), &speed, 0, kMost, format,
-                         ImGuiSliderFlags_Logarithmic)) {
+  const char* text = speed > 0 ? nullptr : "at once";
+  if (slider(name_field("changes a second").c_str(), ImGuiDataType_Float, &speed, &none, &most,
+             "%.1f", ImGuiSliderFlags_Logarithmic, text)) {
     carefully(session.document, [&] { live.set_speed(speed < 0.1F ? 0 : speed); });
   }
   ImGui::Checkbox("the camera goes to each change", &session.document.follow_changes_live);

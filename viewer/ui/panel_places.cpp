@@ -17,8 +17,8 @@ void draw_places_panel(Session& session) {
   if (!ImGui::BeginTable("##places", 3, kLooks, {0, height})) return;
   ImGui::TableSetupScrollFreeze(0, 1);
   ImGui::TableSetupColumn("bad tets", ImGuiTableColumnFlags_WidthStretch);
-  ImGui::TableSetupColumn("of all", ImGuiTableColumnFlags_WidthFixed);
-  ImGui::TableSetupColumn("worst", ImGuiTableColumnFlags_WidthFixed);
+  number_column("of all", "100 %");
+  number_column("worst", "0.0000");
   headers_row(1);
   const auto places = document.bad_places();  // a click moves the camera alone
   const auto most = static_cast<float>(places.empty() ? 1 : places.front().bad);

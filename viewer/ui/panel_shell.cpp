@@ -13,6 +13,7 @@
 #include "explain/figures/ring_drawing.h"
 #include "viewer/ui/drawing_canvas.h"
 #include "viewer/ui/panels.h"
+#include "viewer/ui/slider.h"
 #include "viewer/ui/wrapped_text.h"
 
 namespace tetmend::viewer::ui {
@@ -43,7 +44,7 @@ void show_blended(Document& document, std::span<const LinkedDrawing> drawings, f
   ViewSettings& view = document.view;
   show_linked("##blended", drawings, side, document);
   ImGui::SetNextItemWidth(side);
-  ImGui::SliderScalar("##blend", ImGuiDataType_Double, &view.blend, &kLow, &kHigh, "after %.2f");
+  slider("##blend", ImGuiDataType_Double, &view.blend, &kLow, &kHigh, "after %.2f");
 }
 
 /// A row of a table, which stands for vertices.
@@ -51,56 +52,6 @@ void point_at_row(Document& document, const std::string& name, std::vector<Verte
   ImGui::Selectable(name.c_str(), document.pointed().contains(vertices),
                     ImGuiSelectableFlags_SpanAllColumns);
   if (ImGui::IsItemHovered()) document.hovering = {std::move(vertices)};
-}
-
-/// One of the tables of Algorithm 2: rows i, columns j.
-void show_table(Document& document, const ShellPicture& shell, bool is_quality) {
-  const PocketTables& tables = shell.tables;
-  const auto m = static_cast<int>(tables.size);
-  if (!ImGui::BeginTable(is_quality ? "##q" : "##k", m + 1, ImGuiTableFlags_Borders)) return;
-  ImGui::TableNextRow();
-  ImGui::TableNextColumn();
-  indexed_text(is_quality ? "M_q" : "M_k");
-  for (const VertexHandle v : shell.ring) {
-    ImGui::TableNextColumn();
-    ImGui::TextDisabled("%u", v.index());
-  }
-  for (std::size_t i = 0; i < tables.size; ++i) {
-    ImGui::TableNextRow();
-    ImGui::TableNextColumn();
-    ImGui::TextDisabled("%u", shell.ring[i].index());
-    for (std::size_t j = 0; j < tables.size; ++j) {
-      ImGui::TableNextColumn();
-      const unsigned k = tables.k(i, j);
-      if (k >= tables.size) continue;
-      const std::string text = is_quality ? fmt::format("{:.2f}", tables.q(i, j))
-                                          : fmt::format("{}", shell.ring[k].index());
-      ImGui::PushID(static_cast<int>(i * tables.size + j));
-      std::vector<VertexHandle> triangle = {shell.ring[i], shell.ring[k], shell.ring[j]};
-      ImGui::Selectable(text.c_str(), document.pointed().contains(triangle));
-      if (ImGui::IsItemHovered()) document.hovering = {std::move(triangle)};
-      ImGui::PopID();
-    }
-  }
-  ImGui::EndTable();
-}
-
-void explain_tables() {
-  wrapped_text(
-      "best worst quality of the pocket from the row on to the column, and the corner of "
-      "its triangle at the chord");
-}
-
-/// Rows and columns are vertices of the ring; a cell is the pocket from its row on to its column.
-void show_tables(Document& document, const ShellPicture& shell) {
-  if (shell.tables.size == 0) return;
-  const bool is_open = ImGui::TreeNodeEx("##tables", ImGuiTreeNodeFlags_NoTreePushOnOpen);
-  ImGui::SameLine(ImGui::GetCursorStartPos().x + ImGui::GetTreeNodeToLabelSpacing());
-  indexed_text("tables M_q and M_k (Algorithm 2)");
-  if (!is_open) return;
-  explain_tables();
-  show_table(document, shell, true);
-  show_table(document, shell, false);
 }
 
 /// Chords of the polygon with their pockets, as they were before the edit; best first.
@@ -137,6 +88,14 @@ void list_chords(Document& document, const ShellPicture& shell) {
     quality(chord.back);
   }
   ImGui::EndTable();
+}
+
+/// Beside the ring, both pictures are as high as that with what stands below it.
+float side_beside_ring(float width) {
+  constexpr float kMost = 0.35F;
+  const float high = kRingShare * width + ImGui::GetFrameHeightWithSpacing() -
+                     2 * ImGui::GetTextLineHeightWithSpacing() - ImGui::GetStyle().ItemSpacing.y;
+  return std::min(kMost * width, high / 2);
 }
 
 /// All in the same ball, so that one can be laid over the other; seen as in the large picture.
@@ -192,36 +151,37 @@ void draw_shell_panel(Session& session) {
   }
   if (!has_polygon) return show_tets(document, *study, 0.45F * width, 0.5F * width);
   ImGui::BeginGroup();
-  show_tets(document, *study, 0.35F * width);
+  show_tets(document, *study, side_beside_ring(width));
   ImGui::EndGroup();
   list_chords(document, *polygon->shell);
-  show_tables(document, *polygon->shell);
+  draw_tables_fold(session);
 }
 
-void draw_tables(Session& session) {
-  constexpr float kLeast = 0.5F;
-  constexpr float kLines = 4;      // beside those of a table: words, gaps
-  constexpr float kColumn = 2.8F;  // in sizes of the text
-  const CallStudy* study = session.document.debugger()->study();
-  if (study == nullptr || !study->picture) return;
-  const PolygonView polygon = session.document.debugger()->polygon();
-  const ShellPicture& shell = *polygon.shell;
-  if (shell.tables.size == 0) return ImGui::TextDisabled("no tables were filled in");
-  ImGui::SetWindowFontScale(1);
-  const auto columns = static_cast<float>(shell.tables.size + 1);
-  const float row = ImGui::GetTextLineHeight() + 2 * ImGui::GetStyle().CellPadding.y;
-  const ImVec2 room = ImGui::GetContentRegionAvail();
-  const float fitting = std::min(room.y / ((columns + kLines) * row),
-                                 room.x / (2 * columns * kColumn * ImGui::GetFontSize()));
-  if (fitting < 1) ImGui::SetWindowFontScale(std::max(kLeast, fitting));
-  explain_tables();
-  if (!ImGui::BeginTable("##both", 2)) return;
-  for (const bool is_quality : {true, false}) {
-    ImGui::TableNextColumn();
-    show_table(session.document, shell, is_quality);
-  }
-  ImGui::EndTable();
+namespace {
+
+float paragraph_height(const std::string& paragraph, float width) {
+  const std::string lines = in_lines(paragraph, width);
+  const auto breaks = static_cast<float>(std::count(lines.begin(), lines.end(), '\n'));
+  return (breaks + 1) * ImGui::GetTextLineHeight() + ImGui::GetStyle().ItemSpacing.y;
 }
+
+/// Words above the ring, as far as they leave it nearly as large as it would be without.
+void tell_ring(Session& session, const std::string& caption) {
+  constexpr float kNearly = 0.85F;
+  constexpr std::size_t kMostCalls = 2;
+  constexpr float kStackLines = 4;  // with the calls around, and what is to be removed
+  const ImVec2 room = ImGui::GetContentRegionAvail();
+  const float most = std::min(room.x, room.y);
+  const float words = paragraph_height(caption, room.x);
+  const float stack = kStackLines * ImGui::GetTextLineHeightWithSpacing();
+  const auto leaves = [&](float height) {
+    return std::min(room.x, room.y - height) >= kNearly * most;
+  };
+  if (leaves(words + stack)) draw_stack(session, kMostCalls);
+  if (leaves(words)) wrapped_text(caption);
+}
+
+}  // namespace
 
 void draw_ring(Session& session, bool is_told) {
   Document& document = session.document;
@@ -231,7 +191,7 @@ void draw_ring(Session& session, bool is_told) {
     return show_tets(document, *study, 0.45F * ImGui::GetContentRegionAvail().y);
   }
   const PolygonView polygon = document.debugger()->polygon();
-  if (is_told) wrapped_text(polygon.caption);
+  if (is_told) tell_ring(session, polygon.caption);
   const ImVec2 room = ImGui::GetContentRegionAvail();
   const float side = std::max(std::min(room.x, room.y), 6 * ImGui::GetFontSize());
   ImGui::SetCursorPosX(ImGui::GetCursorPosX() + (room.x - side) / 2);

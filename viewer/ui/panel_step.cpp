@@ -71,7 +71,7 @@ void show_end(Debugger& debugger) {
 
 }  // namespace
 
-void draw_step_buttons(Session& session) {
+void draw_step_buttons(Session& session, bool is_short) {
   const Debugger& debugger = *session.document.debugger();
   constexpr const char* kBack[] = {"back_into", "back_over", "back_out", "run_back"};
   constexpr const char* kOn[] = {"step_into", "step_over", "step_out", "run"};
@@ -87,9 +87,15 @@ void draw_step_buttons(Session& session) {
     }
     ImGui::PopID();
   };
+  const char* play = debugger.playing ? "stop" : "play";
   row("on", kOn);
+  if (is_short) {
+    ImGui::SameLine(5 * column);
+    command_button(session, play, "play", false);
+  }
   row("back", kBack);
-  command_button(session, debugger.playing ? "stop" : "play", "play", false);
+  if (is_short) return;
+  command_button(session, play, "play", false);
   command_button(session, "slower", "slower", true);
   command_button(session, "faster", "faster", true);
   ImGui::SameLine();

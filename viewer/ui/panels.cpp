@@ -27,6 +27,9 @@ std::span<const Panel> panels() {
   constexpr auto kIsPause = [](const Document& d) {
     return d.debugs_live() && d.live.state() == LiveState::paused;
   };
+  constexpr auto kWorksOn = [](const Document& d) {
+    return neighbourhood_of(d.debugger()->file().calls()[d.debugger()->call()]);
+  };
   constexpr auto kHasPair = [](const Document& d) {
     return d.debugger()->other() != nullptr && d.debugger()->other()->pair() != nullptr;
   };
@@ -36,7 +39,7 @@ std::span<const Panel> panels() {
        {"Calls", left, trace, &draw_calls_panel},
        {"Run to, breakpoints, bookmarks", left, trace, &draw_breakpoints_panel},
        {"Calls found", left, trace, &draw_found_panel, nullptr, kHasFoundInside},
-       {"Shell", left, trace, &draw_shell_panel, nullptr, kIsInside},
+       {"Shell", left, trace, &draw_shell_panel, nullptr, kIsInside, kWorksOn},
        {"Ledger of the run", left, trace, &draw_ledger_panel, [](const Document&) { return false; },
         kIsInside},
        {"Histogram", left, mesh, &draw_histogram_panel},

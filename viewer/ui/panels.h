@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <span>
+#include <string_view>
 
 #include "viewer/commands/commands.h"
 
@@ -22,6 +23,8 @@ struct Panel {
   bool (*is_needed)(const Document& document) = nullptr;
   /// Is there only while this is so; null: always.
   bool (*is_there)(const Document& document) = nullptr;
+  /// What its heading says, a literal; null: the title.
+  std::string_view (*heading)(const Document& document) = nullptr;
 };
 
 /// All panels, from top to bottom. Drawn only when there is a mesh.
@@ -44,8 +47,8 @@ void draw_parameters_panel(Session& session);
 void draw_calls_panel(Session& session);
 void draw_breakpoints_panel(Session& session);
 void draw_step_panel(Session& session);
-/// Its buttons alone, where draw_last_event() stands elsewhere.
-void draw_step_buttons(Session& session);
+/// Its buttons alone, where draw_last_event() stands elsewhere. `is_short`: those for steps.
+void draw_step_buttons(Session& session, bool is_short = false);
 /// The algorithm that the call at hand follows, with its line in sight. Fills the current window.
 /// `is_whole`: its lines are as small as they need to be seen all.
 void draw_algorithm_panel(Session& session, bool is_whole = false);
@@ -67,14 +70,21 @@ inline constexpr float kRingShare = 0.6F;
 inline constexpr float kChordRows = 5.2F;  // with the head; more can be scrolled to
 
 // Parts of these, for the layout for teaching.
+/// The text of the step at hand, or what happened last.
+void draw_lesson_text(Session& session);
+/// Buttons, and how far the lesson is.
+void draw_lesson_bar(Session& session);
 /// The calls as a breadcrumb, the innermost `most` of them, and what the innermost is to do.
 void draw_stack(Session& session, std::size_t most = 1000);
 /// What happened last, the verdict and its reason.
 void draw_last_event(Session& session);
-/// The polygon of the shell alone, as large as the window allows. `is_told`: with what it shows.
+/// The polygon of the shell alone, as large as the window allows. `is_told`: with where it is and what it
+/// shows, where there is room.
 void draw_ring(Session& session, bool is_told = true);
 /// The tables of Algorithm 2 alone; their text is as small as they need to be seen whole.
 void draw_tables(Session& session);
+/// The same, to be unfolded. Precondition: the call at hand has a polygon.
+void draw_tables_fold(Session& session);
 /// The tree of calls alone, as high as the window.
 void draw_tree(Session& session);
 

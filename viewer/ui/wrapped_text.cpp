@@ -5,6 +5,7 @@
 #include <cctype>
 #include <cfloat>
 #include <charconv>
+#include <cmath>
 #include <string>
 
 #include <imgui.h>
@@ -118,6 +119,48 @@ void wrapped_text(std::string_view text) {
   indexed_text(in_lines(text, ImGui::GetContentRegionAvail().x));
 }
 
+namespace {
+
+/// Where rows of a line after its first begin.
+float hanging_indent() {
+  constexpr float kHang = 1.5F;
+  return kHang * ImGui::GetFontSize();
+}
+
+}  // namespace
+
+std::size_t CodeLine::rows() const {
+  return 1 + static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
+}
+
+CodeLine code_line(std::string_view line, float width) {
+  constexpr float kLeast = 8;
+  const std::size_t blanks = std::min(line.find_first_not_of(' '), line.size());
+  CodeLine made{static_cast<float>(blanks) * ImGui::CalcTextSize(" ").x, {}};
+  const float room = width - made.indent;
+  line.remove_prefix(blanks);
+  if (ImGui::CalcTextSize(line.data(), line.data() + line.size()).x <= room) {
+    made.text = line;
+  } else {
+    made.text = in_lines(line, std::max(room - hanging_indent(), kLeast * ImGui::GetFontSize()));
+  }
+  return made;
+}
+
+void show_code_line(const CodeLine& line) {
+  const float left = ImGui::GetCursorPosX() + line.indent;
+  std::string_view rest = line.text;
+  ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {0, 0});
+  for (bool is_first = true;; is_first = false) {
+    const std::size_t end = std::min(rest.find('\n'), rest.size());
+    ImGui::SetCursorPosX(is_first ? left : left + hanging_indent());
+    indexed_text(rest.substr(0, end));
+    if (end == rest.size()) break;
+    rest.remove_prefix(end + 1);
+  }
+  ImGui::PopStyleVar();
+}
+
 CallsInText wrapped_text_with_calls(std::string_view text) {
   CallsInText calls;
   const std::string lines = in_lines(text, ImGui::GetContentRegionAvail().x);
@@ -156,9 +199,20 @@ void move_right(const char* text) {
 
 }  // namespace
 
+std::string infinity_text() {
+  constexpr ImWchar kInfinity = 0x221E;
+  return ImGui::GetFont()->FindGlyphNoFallback(kInfinity) != nullptr ? "\u221e" : "inf";
+}
+
 void right_aligned(const std::string& text) {
   move_right(text.c_str());
   ImGui::TextUnformatted(text.c_str());
+}
+
+void number_column(const char* title, const std::string& longest) {
+  const float width =
+      std::max(ImGui::CalcTextSize(title).x, ImGui::CalcTextSize(longest.c_str()).x);
+  ImGui::TableSetupColumn(title, ImGuiTableColumnFlags_WidthFixed, std::ceil(width));
 }
 
 void headers_row(int first_number) {

@@ -60,7 +60,9 @@ TEST_CASE("a step of a lesson shows what it speaks of beside its picture, with b
         const bool is_picture_alone = layout.focus == std::vector{Focus::picture};
         CHECK(layout.right.is_empty() == is_picture_alone);
         CHECK(layout.canvas.height > 0.4 * height);
-        places.insert(layout.strip.y);
+        CHECK(layout.bar.height >= 44);
+        CHECK(layout.strip.y + layout.strip.height == layout.bar.y);
+        places.insert(layout.bar.y);
       }
       CHECK(places.size() == 1);
     }

@@ -164,9 +164,8 @@ TEST_CASE("what is pointed at lights up in the picture and in the ring") {
 
 namespace {
 
-/// Width and height of what has the colour of the skirt polygon in the left column.
-std::array<int, 2> extent_of_ring(const viewer::Image& image) {
-  constexpr int kColumn = 450;
+/// Width and height of what has the colour of the skirt polygon between two columns of pixels.
+std::array<int, 2> extent_of_ring(const viewer::Image& image, int from = 0, int to = 450) {
   const auto is_skirt = [](const viewer::Colour& c) {
     constexpr int kNear = 4;
     return std::abs(c.red - 20) < kNear && std::abs(c.green - 120) < kNear &&
@@ -174,7 +173,7 @@ std::array<int, 2> extent_of_ring(const viewer::Image& image) {
   };
   int left = image.width, right = 0, top = image.height, bottom = 0;
   for (int y = 0; y < image.height; ++y) {
-    for (int x = 0; x < kColumn; ++x) {
+    for (int x = from; x < to; ++x) {
       if (!is_skirt(image.at(x, y))) continue;
       left = std::min(left, x);
       right = std::max(right, x);
@@ -217,6 +216,24 @@ TEST_CASE("the whole ring is in sight in small windows, without scrolling") {
     CHECK(extent[0] == doctest::Approx(whole[0]).epsilon(0.1));
     CHECK(extent[1] * whole[0] == doctest::Approx(extent[0] * whole[1]).epsilon(0.02));
   }
+}
+
+TEST_CASE("the ring of a lesson has the room that its text leaves in a window of 1280 x 720") {
+  const TempFolder folder;
+  const auto picture = [&](const char* name) { return (folder / name).string(); };
+  const test::Outcome outcome =
+      run_trace_script(folder, TETMEND_SOURCE_DIR "/assets/lessons/1-core.trace",
+                       fmt::format(R"lua(
+    size(1280, 720)
+    panels()
+    seek(2) screenshot("{}") -- beside the picture
+    seek(6) screenshot("{}") -- alone
+  )lua",
+                                   picture("a.png"), picture("b.png")));
+  CHECK(outcome.err == "");
+  REQUIRE(outcome.status == 0);
+  CHECK(extent_of_ring(read_png(folder / "a.png"), 800, 1280)[1] > 290);
+  CHECK(extent_of_ring(read_png(folder / "b.png"), 560, 1280)[1] > 330);
 }
 
 namespace {
