@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A recorded run, for users.
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include <fmt/format.h>
@@ -135,6 +136,7 @@ Trace::Call Trace::call(std::uint32_t number) const {
   if (from.undone_with != kNoCall) made.undone_with = from.undone_with;
   made.worst_before = from.worst_before;
   made.worst_after = from.worst_after;
+  if (!from.accepted() && std::isfinite(from.missing())) made.missing = from.missing();
   return made;
 }
 
@@ -203,9 +205,16 @@ std::vector<Trace::Entry> Trace::ledger() const {
       const LedgerCell& cell = row.cells[i];
       if (cell.calls == 0) continue;
       const auto ending = static_cast<CallEnding>(i);
-      entries.push_back({row.operator_name, row.level, name_of(ending), kEndingWords[i].reason,
-                         is_refusal(ending), cell.calls, static_cast<double>(cell.calls) / all,
-                         cell.seconds});
+      entries.push_back({row.operator_name,
+                         row.level,
+                         name_of(ending),
+                         kEndingWords[i].reason,
+                         is_refusal(ending),
+                         cell.calls,
+                         static_cast<double>(cell.calls) / all,
+                         cell.seconds,
+                         {}});
+      if (std::isfinite(cell.nearest)) entries.back().nearest = cell.nearest;
     }
   }
   return entries;

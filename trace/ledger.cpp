@@ -37,9 +37,17 @@ double percent_of(std::size_t part, std::size_t all) {
   return all == 0 ? 0 : 100 * static_cast<double>(part) / static_cast<double>(all);
 }
 
-void write_line(std::string& text, std::string_view name, const LedgerCell& cell, std::size_t all) {
-  fmt::format_to(std::back_inserter(text), "  {:<42} {:>9} {:>6.1f} {:>9.3f}\n", name, cell.calls,
-                 percent_of(cell.calls, all), cell.seconds);
+/// What the nearest of refused calls lacked, or why that is not known.
+std::string nearest_in_words(const LedgerCell& cell) {
+  if (!std::isfinite(cell.nearest)) return fmt::format("-: {}", kNothingCompared);
+  return cell.nearest <= 0 ? "others" : fmt::format("{:.4f}", cell.nearest);
+}
+
+void write_line(std::string& text, CallEnding ending, const LedgerCell& cell, std::size_t all) {
+  const bool has_nearest = is_refusal(ending) && cell.calls > 0;
+  fmt::format_to(std::back_inserter(text), "  {:<42} {:>9} {:>6.1f} {:>9.3f}{}{}\n",
+                 name_of(ending), cell.calls, percent_of(cell.calls, all), cell.seconds,
+                 has_nearest ? "  " : "", has_nearest ? nearest_in_words(cell) : "");
 }
 
 /// What lasted, what did not, and refusals, the most frequent first.
@@ -47,8 +55,8 @@ void write_block(std::string& text, std::string_view name, const LedgerRow& row)
   const LedgerCell total = row.total();
   fmt::format_to(std::back_inserter(text), "\n{:<44} {:>9} {:>6} {:>9.3f}\n", name, total.calls, "",
                  total.seconds);
-  write_line(text, name_of(CallEnding::for_good), row.cell(CallEnding::for_good), total.calls);
-  write_line(text, name_of(CallEnding::undone), row.cell(CallEnding::undone), total.calls);
+  write_line(text, CallEnding::for_good, row.cell(CallEnding::for_good), total.calls);
+  write_line(text, CallEnding::undone, row.cell(CallEnding::undone), total.calls);
   std::vector<CallEnding> others;
   for (std::size_t i = 0; i < kEndingCount; ++i) {
     const auto ending = static_cast<CallEnding>(i);
@@ -58,8 +66,7 @@ void write_block(std::string& text, std::string_view name, const LedgerRow& row)
   std::stable_sort(others.begin(), others.end(), [&](CallEnding one, CallEnding other) {
     return row.cell(one).calls > row.cell(other).calls;
   });
-  for (const CallEnding ending : others)
-    write_line(text, name_of(ending), row.cell(ending), total.calls);
+  for (const CallEnding ending : others) write_line(text, ending, row.cell(ending), total.calls);
 }
 
 void write_nearness(std::string& text, const LedgerRow& all) {
@@ -73,7 +80,7 @@ void write_nearness(std::string& text, const LedgerRow& all) {
     line(fmt::format("less than {}", kNearness[i]), all.nearness[i + 1]);
   }
   line("more", all.nearness[kNearness.size() + 1]);
-  line("nothing was compared", all.nearness[kNearness.size() + 2]);
+  line(std::string(kNothingCompared), all.nearness[kNearness.size() + 2]);
 }
 
 using Json = nlohmann::ordered_json;
@@ -84,10 +91,14 @@ Json cells_json(const LedgerRow& row) {
   for (std::size_t i = 0; i < kEndingCount; ++i) {
     const LedgerCell& cell = row.cells[i];
     if (cell.calls == 0) continue;
-    cells[std::string(name_of(static_cast<CallEnding>(i)))] = {
-        {"calls", cell.calls},
-        {"share", percent_of(cell.calls, all) / 100},
-        {"seconds", cell.seconds}};
+    const auto ending = static_cast<CallEnding>(i);
+    Json& json = cells[std::string(name_of(ending))];
+    json = {{"calls", cell.calls},
+            {"share", percent_of(cell.calls, all) / 100},
+            {"seconds", cell.seconds}};
+    if (!is_refusal(ending)) continue;
+    json["nearest_lacked"] = std::isfinite(cell.nearest) ? Json(cell.nearest) : Json();
+    if (!std::isfinite(cell.nearest)) json["why_none"] = kNothingCompared;
   }
   return cells;
 }
@@ -115,6 +126,7 @@ Json row_json(const LedgerRow& row) {
 LedgerCell& LedgerCell::operator+=(const LedgerCell& other) {
   calls += other.calls;
   seconds += other.seconds;
+  nearest = std::min(nearest, other.nearest);
   return *this;
 }
 
@@ -157,8 +169,12 @@ Ledger make_ledger(const TraceFile& file) {
     const Call& call = calls[c];
     const CallEnding ending = file.ending(call);
     LedgerRow& row = rows[{call.operator_name, call.level}];
-    row.cells[static_cast<std::size_t>(ending)] += {1, call.events.seconds() - inner[c]};
-    if (is_refusal(ending)) ++row.nearness[nearness_of(call)];
+    LedgerCell& cell = row.cells[static_cast<std::size_t>(ending)];
+    ++cell.calls;
+    cell.seconds += call.events.seconds() - inner[c];
+    if (!is_refusal(ending)) continue;
+    cell.nearest = std::min(cell.nearest, call.missing());
+    ++row.nearness[nearness_of(call)];
   }
   Ledger ledger;
   for (auto& [key, row] : rows) {
@@ -199,10 +215,10 @@ std::string format_ledger(const Ledger& ledger) {
   fmt::format_to(
       std::back_inserter(text),
       "{} calls: {} accepted for good, {} accepted and undone with a caller, {} refused; "
-      "{} of {} edits lasted\n\n{:<44} {:>9} {:>6} {:>9}\n",
+      "{} of {} edits lasted\n\n{:<44} {:>9} {:>6} {:>9}  {}\n",
       ledger.all.total().calls, ledger.all.cell(CallEnding::for_good).calls,
       ledger.all.cell(CallEnding::undone).calls, ledger.all.refused().calls, ledger.lasting,
-      ledger.edits, "operator, and how its calls ended", "calls", "%", "seconds");
+      ledger.edits, "operator, and how its calls ended", "calls", "%", "seconds", "nearest lacked");
   for (const LedgerRow& row : ledger.by_operator()) write_block(text, row.operator_name, row);
   write_block(text, "all operators", ledger.all);
   write_nearness(text, ledger.all);

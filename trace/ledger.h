@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -17,6 +18,9 @@ namespace tetmend {
 struct LedgerCell {
   std::size_t calls = 0;
   double seconds = 0;  ///< of the calls themselves, without those in them
+  /// The least that a refused call of these was missing, see Call::missing(); infinite where none
+  /// compared anything.
+  double nearest = std::numeric_limits<double>::infinity();
   LedgerCell& operator+=(const LedgerCell& other);
 };
 

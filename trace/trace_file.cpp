@@ -377,6 +377,13 @@ double Call::missing() const {
   return double{worst_before} - double{worst_after};
 }
 
+std::string Call::missing_in_words() const {
+  if (accepted()) return {};
+  if (!verdict) return "-: the trace ends before";
+  if (!has_qualities()) return fmt::format("-: {}", kNothingCompared);
+  return missing() <= 0 ? "others" : fmt::format("{:.4f}", missing());
+}
+
 std::uint32_t TraceFile::call_at(std::uint64_t event) const {
   const auto after = std::upper_bound(
       calls_.begin(), calls_.end(), event,

@@ -26,6 +26,9 @@ class TraceAudit;
 
 inline constexpr std::uint32_t kNoCall = std::numeric_limits<std::uint32_t>::max();
 
+/// Why it is not known how near a call came to being accepted.
+inline constexpr std::string_view kNothingCompared = "nothing was compared";
+
 /// From the event that begins something to the one after the event that ends it. Of something that
 /// a cut-off trace does not see end, the end is that of the trace.
 struct EventRange {
@@ -73,6 +76,9 @@ struct Call {
   /// How much quality the worst tet of a refused call lacked; negative where that was good enough
   /// and others were not, infinite where nothing was compared.
   double missing() const;
+  /// "0.0123", "others" where the worst tet was good enough, or why there is no number; empty for one
+  /// that was accepted.
+  std::string missing_in_words() const;
   std::span<const VertexHandle> target() const { return {target_vertices.data(), target_size}; }
 };
 

@@ -77,6 +77,9 @@ class TETMEND_API Trace {
     std::optional<std::uint32_t> undone_with;  ///< the call around it that undid what it did
     double worst_before = 0;                   ///< quality of the worst tet that it changed
     double worst_after = 0;                    ///< likewise; refused: of what was tried
+    /// How much quality the worst tet of a refused call lacked, negative where others were the reason;
+    /// nothing where nothing was compared
+    std::optional<double> missing;
   };
 
   /// Calls of one operator on one level of recursion that ended alike.
@@ -85,11 +88,12 @@ class TETMEND_API Trace {
     unsigned level = 0;              ///< of recursion
     /// "accepted for good", "undone with a caller", "nothing better", "vector not better", ...
     std::string_view ending;
-    std::string_view reason;  ///< of it, in a sentence
-    bool is_refusal = false;  ///< neither accepted nor cut off
-    std::size_t calls = 0;    ///< their number
-    double share = 0;         ///< of all calls of the operator on the level
-    double seconds = 0;       ///< of these calls, without calls in them
+    std::string_view reason;             ///< of it, in a sentence
+    bool is_refusal = false;             ///< neither accepted nor cut off
+    std::size_t calls = 0;               ///< their number
+    double share = 0;                    ///< of all calls of the operator on the level
+    double seconds = 0;                  ///< of these calls, without calls in them
+    std::optional<double> nearest = {};  ///< of refused calls: the least of Call::missing
   };
 
   /// A place where one run left a bad tet and another a good one.

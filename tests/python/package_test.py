@@ -640,6 +640,13 @@ def test_a_trace_has_a_ledger_in_which_each_call_is_once(tmp_path, command_line)
     found = trace.calls_of(entry)
     assert len(found) == entry["calls"] and all(calls[n]["operator"] == entry["operator"] and calls[n]["level"] == entry["level"] for n in found)
     assert json.loads(command_line("trace", file, "--ledger", "--json"))["all"]["calls"] == trace.call_count
+    for entry in (entry for entry in ledger if entry["refused"]):
+        missing = [calls[n]["missing"] for n in trace.calls_of(entry)]
+        assert entry["nearest"] == missing[0]
+        known = [value for value in missing if value is not None]
+        assert missing == sorted(known) + [None] * (len(missing) - len(known))
+    assert any(entry["nearest"] is None for entry in ledger if entry["refused"])
+    assert all(call["missing"] is None for call in calls if call["accepted"])
 
 
 def test_two_traces_are_set_side_by_side(tmp_path, materials, command_line):

@@ -211,6 +211,56 @@ TEST_CASE("the calls of a cell are as many as it says, the nearest to being acce
   CHECK(calls_in(file, {"", {}, {}, true}).size() == make_ledger(file).all.refused().calls);
 }
 
+TEST_CASE(
+    "how near a refusal was stands in words, also where nothing was compared, and those come "
+    "last") {
+  const test::TracedBall trace;
+  const TraceFile file(trace.path());
+  bool has_compared = false;
+  std::size_t without = 0;
+  for (const std::uint32_t c : calls_in(file, {"", {}, {}, true})) {
+    const Call& call = file.calls()[c];
+    if (call.has_qualities()) {
+      has_compared = true;
+      CHECK(without == 0);
+      CHECK(call.missing_in_words() ==
+            (call.missing() <= 0 ? "others" : fmt::format("{:.4f}", call.missing())));
+    } else {
+      ++without;
+      CHECK(call.missing_in_words() == "-: nothing was compared");
+    }
+  }
+  CHECK(has_compared);
+  CHECK(without > 0);
+  for (const Call& call : file.calls()) CHECK(call.accepted() == call.missing_in_words().empty());
+
+  const Ledger ledger = make_ledger(file);
+  const auto json = nlohmann::json::parse(ledger_json(file, ledger));
+  std::size_t told = 0;
+  for (std::size_t r = 0; r < ledger.rows.size(); ++r) {
+    const LedgerRow& row = ledger.rows[r];
+    for (std::size_t i = 0; i < kEndingCount; ++i) {
+      const auto ending = static_cast<CallEnding>(i);
+      if (row.cells[i].calls == 0) continue;
+      const auto& cell = json["rows"][r]["endings"][std::string(name_of(ending))];
+      REQUIRE(cell.contains("nearest_lacked") == is_refusal(ending));
+      if (!is_refusal(ending)) continue;
+      const auto calls = calls_in(file, {std::string(row.operator_name), row.level, ending, false});
+      const Call& nearest = file.calls()[calls.front()];
+      if (nearest.has_qualities()) {
+        CHECK(cell["nearest_lacked"] == nearest.missing());
+        CHECK_FALSE(cell.contains("why_none"));
+      } else {
+        ++told;
+        CHECK(cell["nearest_lacked"].is_null());
+        CHECK(cell["why_none"] == "nothing was compared");
+      }
+    }
+  }
+  CHECK(told > 0);
+  CHECK(format_ledger(ledger).find("  -: nothing was compared\n") != std::string::npos);
+}
+
 TEST_CASE("a ledger of events alone is that of a trace whose mesh was followed") {
   const test::TracedBall trace;
   const TraceFile events(trace.path(), TraceCheck::events);

@@ -139,14 +139,9 @@ void show_ledger_rows(Debugger& debugger, std::string& chosen) {
 
 void show_nearness(const LedgerRow& all) {
   std::size_t near = all.nearness[0] + all.nearness[1] + all.nearness[2];
-  wrapped_text(fmt::format("{} refusals missed by less than {} in the quality of their worst tet",
-                           grouped(near), kNearness[1]));
-}
-
-std::string missing_text(const Call& call) {
-  if (call.accepted()) return {};
-  if (!call.has_qualities()) return "-";
-  return call.missing() <= 0 ? "others" : fmt::format("{:.4f}", call.missing());
+  wrapped_text(
+      fmt::format("{} refusals missed by less than {} in the quality of their worst tet; of {} {}",
+                  grouped(near), kNearness[1], grouped(all.nearness.back()), kNothingCompared));
 }
 
 void show_found_row(Session& session, std::uint32_t number) {
@@ -169,7 +164,7 @@ void show_found_row(Session& session, std::uint32_t number) {
                       call.verdict_in_words().c_str(), reason.c_str());
   }
   ImGui::PopID();
-  number_cell(missing_text(call));
+  number_cell(call.missing_in_words());
 }
 
 }  // namespace

@@ -32,7 +32,8 @@ py::dict dict_of(const Trace::Call& call) {
                 "target"_a = py::tuple(py::cast(call.target)), "verdict"_a = call.verdict,
                 "reason"_a = call.reason, "accepted"_a = call.accepted,
                 "for_good"_a = call.for_good, "undone_with"_a = call.undone_with,
-                "worst_before"_a = call.worst_before, "worst_after"_a = call.worst_after);
+                "worst_before"_a = call.worst_before, "worst_after"_a = call.worst_after,
+                "missing"_a = call.missing);
   add_range(made, call.events);
   return made;
 }
@@ -57,7 +58,7 @@ py::dict dict_of(const Trace::Entry& entry) {
   return py::dict("operator"_a = entry.operator_name, "level"_a = entry.level,
                   "ending"_a = entry.ending, "reason"_a = entry.reason,
                   "refused"_a = entry.is_refusal, "calls"_a = entry.calls, "share"_a = entry.share,
-                  "seconds"_a = entry.seconds);
+                  "seconds"_a = entry.seconds, "nearest"_a = entry.nearest);
 }
 
 py::list ledger_of(const Trace& trace) {

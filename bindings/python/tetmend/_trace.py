@@ -184,14 +184,15 @@ class Trace:
     def ledger(self) -> list[dict[str, Any]]:
         """The whole of the run: a dict for each operator, level of recursion and way to end.
 
-        Keys are operator, level, ending, reason, refused, calls, share (of the operator's calls on the level) and seconds (of these
-        calls, without calls in them). Each call is in one of them: `pandas.DataFrame(trace.ledger())` is a table of all.
+        Keys are operator, level, ending, reason, refused, calls, share (of the operator's calls on the level), seconds (of these
+        calls, without calls in them) and nearest: the least quality that a refused one was missing, None where nothing was compared.
+        Each call is in one of them: `pandas.DataFrame(trace.ledger())` is a table of all.
         Takes a tenth of a microsecond for each call.
         """
         return self._core.ledger()
 
     def calls_of(self, entry: dict[str, Any]) -> list[int]:
-        """The calls of an entry of the ledger, by number; those nearest to being accepted come first."""
+        """The calls of an entry of the ledger, by number; those nearest to being accepted come first, those that compared nothing last."""
         return self._core.calls_of(entry["operator"], entry["level"], entry["ending"])
 
     def worse_than(self, other: Trace) -> list[dict[str, Any]]:
