@@ -2,6 +2,7 @@
 #include "viewer/document.h"
 
 #include <algorithm>
+#include <array>
 #include <string>
 #include <utility>
 #include <vector>
@@ -46,6 +47,14 @@ Message message_of(const LiveProgress& run, const std::string& schedule) {
     default:
       return {fmt::format("{}: {}, {:.1f} s", schedule, to_string(run.state), run.seconds), false};
   }
+}
+
+/// "edge that call 2 aimed at, accepted".
+std::string aim_in_words(const LiveCall& call) {
+  constexpr std::array<const char*, 4> kKinds = {"vertex", "edge", "face", "tet"};
+  const std::size_t size = std::clamp<std::size_t>(call.target.size(), 1, kKinds.size());
+  return fmt::format("{} that call {} aimed at, {}", kKinds[size - 1], call.number,
+                     call.is_under_way ? "under way" : to_string(call.verdict));
 }
 
 }  // namespace
@@ -234,7 +243,7 @@ void Document::forget_derived() {
 }
 
 void Document::draw_anew() {
-  for (Drawing* drawing : {&whole_, &isolated_}) {
+  for (Drawing* drawing : {&whole_, &isolated_, &outline_}) {
     drawing->settings.reset();
     drawing->changed.clear();
   }
@@ -250,11 +259,14 @@ void Document::follow_changes(std::span<const TetHandle> changed) {
   for (const auto& tets : {changed, std::span<const TetHandle>(deeper)}) {
     whole_.changed.insert(whole_.changed.end(), tets.begin(), tets.end());
   }
+  outline_.changed.insert(outline_.changed.end(), changed.begin(), changed.end());
   // Long unseen; or faces that stay may now be nearest to other places of the reference.
   const bool is_far = view.scene.both_ways && view.scene.colour == kDistance;
-  if (is_far || whole_.changed.size() > mesh_.tet_slots()) {
-    whole_.settings.reset();
-    whole_.changed.clear();
+  for (Drawing* drawing : {&whole_, &outline_}) {
+    const bool is_anew = is_far && drawing == &whole_;
+    if (!is_anew && drawing->changed.size() <= mesh_.tet_slots()) continue;
+    drawing->settings.reset();
+    drawing->changed.clear();
   }
   isolated_.settings.reset();
 }
@@ -554,6 +566,7 @@ void Document::mark_live_call(const LiveProgress& run) {
   const auto& call = run.state == LiveState::paused ? run.last : run.last_accepted;
   if (!is_watched || is_over || !call) return;
   marks_ = highlight_points(call->target, ball_.centre);
+  call_legend_ = {{kSupportingEdgeColour, aim_in_words(*call)}};
   select({});
   const bool is_known = followed_call_ == call->number && !call->is_inside;
   if (!follow_changes_live || is_known) return;
@@ -624,6 +637,25 @@ std::optional<std::size_t> Document::place_among_worst() {
 const Scene& Document::scene() {
   update_scene();
   return (is_isolated_ ? isolated_ : whole_).keeper.scene();
+}
+
+const Scene* Document::outline() {
+  update_scene();
+  const SceneSettings& scene = view.scene;
+  const bool is_part = is_isolated_ || scene.filtered || !scene.hidden_regions.empty();
+  if (!is_part || !scene.outline || scene.ghosts > 0) return nullptr;
+  if (outline_.settings && outline_.changed.empty()) return &outline_.keeper.scene();
+  SceneSettings all;
+  all.bad = false;
+  const SceneInput input{mesh_, all, {}, {}, {}, {}, ball_};
+  if (outline_.settings) {
+    outline_.keeper.update(input, outline_.changed);
+  } else {
+    outline_.keeper.build(input);
+  }
+  outline_.settings = all;
+  outline_.changed.clear();
+  return &outline_.keeper.scene();
 }
 
 unsigned Document::scene_revision() {

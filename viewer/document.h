@@ -279,6 +279,9 @@ class Document {
   const Scene& scene();
   /// What scene() gave last shows the tets of a call only.
   bool is_isolated() const { return is_isolated_; }
+  /// The whole mesh, to be drawn faintly behind what a filter, a hidden region or isolation leaves of
+  /// it. Null: nothing is hidden so, the view wants none, or ghosts show it already.
+  const Scene* outline();
   const Highlight& highlighted();
   /// Change when scene() or highlighted() would return something else.
   unsigned scene_revision();
@@ -336,7 +339,6 @@ class Document {
   bool is_alone_ = false;    // the selection was isolated, not only picked
   bool is_changed_ = false;  // the mesh is in no file
   std::optional<Camera> camera_before_alone_;
-  bool has_lent_ghosts_ = false;  // to what is alone
   /// Where the last pick took a bad tet behind the surface.
   struct Place {
     glm::dvec2 pixel{0};
@@ -375,7 +377,7 @@ class Document {
     std::optional<SceneSettings> settings;  // nothing: to be made anew
     std::vector<TetHandle> changed;         // tets, since
   };
-  Drawing whole_, isolated_;
+  Drawing whole_, isolated_, outline_;
   bool is_isolated_ = false;  // which of them is seen
   std::optional<Highlight> highlight_;
   std::vector<LegendEntry> legend_;

@@ -53,6 +53,40 @@ Ball join(const Ball& one, const Ball& other) {
   return {one.centre + (radius - one.radius) * along, radius};
 }
 
+/// Of the tets that are shown of the call at hand.
+std::string state_of_tets(const Debugger& debugger) {
+  if (debugger.call() == kNoCall) return "tets beside it";
+  const Call& call = debugger.file().calls()[debugger.call()];
+  const Timeline& timeline = debugger.timeline();
+  const bool is_changed =
+      timeline.changes_before(debugger.position()) > timeline.changes_before(call.events.begin);
+  if (!is_changed) return "tets before the call";
+  if (debugger.position() < call.events.end) return "tets after a step";
+  return call.accepted() ? "tets after the call" : "tets as before: undone";
+}
+
+/// The colours of what is selected, as highlight() has it.
+std::vector<LegendEntry> legend_of(const TetMesh& mesh, const Selection& selection) {
+  if (const auto* edge = std::get_if<TetEdge>(&selection)) {
+    const auto ends = mesh.vertices(*edge);
+    const auto from = std::min<std::uint32_t>(ends[0].index(), ends[1].index());
+    const auto to = std::max<std::uint32_t>(ends[0].index(), ends[1].index());
+    return {{kSupportingEdgeColour, fmt::format("supporting edge {} {}", from, to)},
+            {kSkirtColour, "skirt polygon"}};
+  }
+  if (const auto* v = std::get_if<VertexHandle>(&selection)) {
+    return {{kSupportingEdgeColour, fmt::format("vertex {}", v->index())},
+            {kSkirtColour, "edges at it"}};
+  }
+  if (const auto* f = std::get_if<HalfFace>(&selection)) {
+    const auto c = mesh.vertices(*f);
+    return {{kSupportingEdgeColour,
+             fmt::format("face {} {} {}", c[0].index(), c[1].index(), c[2].index())}};
+  }
+  if (std::holds_alternative<TetHandle>(selection)) return {{kSelectionColour, "selected tet"}};
+  return {};
+}
+
 }  // namespace
 
 bool Pointed::contains(std::span<const VertexHandle> all) const {
@@ -143,14 +177,9 @@ void Document::toggle_isolation() {
 }
 
 void Document::isolate_selection() {
-  constexpr double kFaint = 0.15;
   is_alone_ = true;
   isolated_.settings.reset();
   view.scene.isolate = true;
-  if (view.scene.ghosts == 0) {
-    view.scene.ghosts = kFaint;
-    has_lent_ghosts_ = true;
-  }
   camera_before_alone_ = view.camera;
   if (!is_seen(ball_around(mesh_, selection_))) fit();
 }
@@ -159,8 +188,6 @@ void Document::isolate_selection() {
 void Document::show_rest() {
   if (camera_before_alone_) view.camera = *camera_before_alone_;
   camera_before_alone_.reset();
-  if (has_lent_ghosts_) view.scene.ghosts = 0;
-  has_lent_ghosts_ = false;
 }
 
 void Document::end_alone() {
@@ -168,8 +195,6 @@ void Document::end_alone() {
     view.scene.isolate = false;
     show_rest();
   }
-  if (has_lent_ghosts_) view.scene.ghosts = 0;
-  has_lent_ghosts_ = false;
   camera_before_alone_.reset();
 }
 
@@ -364,17 +389,18 @@ unsigned Document::highlight_revision() {
 
 const std::vector<LegendEntry>& Document::legend() {
   legend_ = call_legend_;
-  if (const auto* edge = std::get_if<TetEdge>(&selection_)) {
-    const auto ends = mesh_.vertices(*edge);
-    const auto from = std::min<std::uint32_t>(ends[0].index(), ends[1].index());
-    const auto to = std::max<std::uint32_t>(ends[0].index(), ends[1].index());
-    legend_.push_back({kSupportingEdgeColour, fmt::format("supporting edge {} {}", from, to)});
-    legend_.push_back({kSkirtColour, "skirt polygon"});
-  }
-  if (std::holds_alternative<TetHandle>(selection_)) {
-    legend_.push_back({kSelectionColour, "selected tet"});
+  const auto is_told = [&](const LegendEntry& entry) {
+    return std::any_of(legend_.begin(), legend_.end(),
+                       [&](const LegendEntry& told) { return told.colour == entry.colour; });
+  };
+  for (LegendEntry& entry : legend_of(mesh_, selection_)) {
+    if (!is_told(entry)) legend_.push_back(std::move(entry));  // t of a visit is selected, too
   }
   if (scene().bad_shown > 0) legend_.push_back({kBadColour, "bad tets"});
+  const bool is_of_call = debugger_ != nullptr && is_isolated_ && !near_.empty();
+  if (is_of_call && view.scene.colour == "region") {
+    legend_.push_back({region_colour(mesh_.label(near_.front())), state_of_tets(*debugger_)});
+  }
   return legend_;
 }
 

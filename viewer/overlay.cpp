@@ -650,7 +650,8 @@ Drawing draw_overlay(Document& document, const OverlayLook& look) {
   drawer.pointed();
   if (view.numbers) drawer.names();
   if (view.all_numbers) drawer.numbers_of_seen();
-  if (view.legend && document.show_panels && document.debugger() != nullptr) drawer.legend();
+  const bool has_calls = document.debugger() != nullptr || document.live.is_active();
+  if (view.legend && document.show_panels && has_calls) drawer.legend();
   if (!view.title.empty()) drawer.title();
   if (view.colour_bar) drawer.colour_bar();
   if (view.scale_bar) drawer.scale_bar();

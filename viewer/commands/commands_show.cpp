@@ -167,6 +167,9 @@ constexpr std::array kShowCommands = {
     Command{"constraints", "C", kShow, "constraints()", "Constraint faces inside the volume",
             &toggle<&SceneSettings::constraints>},
     Command{"ghosts", "G", kShow, "ghosts(0.15)", "Ghosts of hidden tets; opacity", &ghosts},
+    Command{"outline", "", kShow, "outline()",
+            "The mesh as a faint outline around what a filter or isolation leaves of it",
+            &toggle<&SceneSettings::outline>},
     Command{
         "reference", "Ctrl+R", kShow, "reference(\"FILE\", \"1%\")",
         "Colour the surface by its distance from that of another mesh, seen as a ghost; then on "

@@ -78,6 +78,7 @@ void SceneBuffers::follow(const Scene& scene) {
 Renderer::Renderer()
     : background_(kBackgroundVertex, kBackgroundFragment),
       surface_(kSurfaceVertex, kSurfaceFragment),
+      outline_(kSurfaceVertex, kOutlineFragment),
       lines_(kLineVertex, kLineFragment),
       nothing_(0, {}, false),
       highlight_vertices_(sizeof(SurfaceVertex), surface_attributes(), false),
@@ -93,6 +94,9 @@ void Renderer::upload(Document& document) {
   SceneBuffers& buffers = document.is_isolated() ? isolated_ : whole_;
   buffers.follow(scene);
   scene_ = &buffers;
+  const Scene* outline = document.outline();
+  has_outline_ = outline != nullptr;
+  if (has_outline_) around_.follow(*outline);
   if (document.highlight_revision() != highlight_revision_) {
     highlight_revision_ = document.highlight_revision();
     const Highlight& shown = document.highlighted();
@@ -136,6 +140,26 @@ void Renderer::draw_once_per_pixel(const Buffer& buffer, float opacity, float ed
   glDepthFunc(GL_LESS);
 }
 
+/// Before all else of the mesh, so that it tints nothing that is shown.
+void Renderer::draw_outline(const Document& document, const glm::mat4& view,
+                            const glm::mat4& projection) {
+  constexpr glm::vec3 kOnLight{0.30F, 0.38F, 0.50F};
+  constexpr glm::vec3 kOnDark{0.62F, 0.70F, 0.82F};
+  const ViewSettings& settings = document.view;
+  const bool on_dark = settings.theme == "dark" && settings.background == Background::gradient;
+  outline_.use();
+  outline_.set("view", view);
+  outline_.set("projection", projection);
+  outline_.set("tint", on_dark ? kOnDark : kOnLight);
+  glDisable(GL_DEPTH_TEST);
+  glEnable(GL_CULL_FACE);
+  glEnable(GL_BLEND);
+  around_.surface().bind();
+  glDrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(around_.surface().count()));
+  glDisable(GL_BLEND);
+  glDisable(GL_CULL_FACE);
+}
+
 void Renderer::draw_lines(const Document& document, const glm::mat4& view,
                           const glm::mat4& projection, float scale) {
   lines_.use();
@@ -169,6 +193,7 @@ void Renderer::draw(Document& document, const Surface& surface) {
 
   const glm::mat4 view(document.view.camera.view(document.ball().centre));
   const glm::mat4 projection(document.view.camera.projection(canvas, document.ball()));
+  if (has_outline_) draw_outline(document, view, projection);
   surface_.use();
   surface_.set("view", view);
   surface_.set("projection", projection);

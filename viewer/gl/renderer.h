@@ -49,6 +49,7 @@ class Renderer {
  private:
   void upload(Document& document);
   void draw_background(const Document& document, bool is_clear) const;
+  void draw_outline(const Document& document, const glm::mat4& view, const glm::mat4& projection);
   void draw_lines(const Document& document, const glm::mat4& view, const glm::mat4& projection,
                   float scale);
   void draw_surface(const Buffer& buffer, float opacity, float edges) const;
@@ -56,12 +57,15 @@ class Renderer {
 
   Program background_;
   Program surface_;
+  Program outline_;
   Program lines_;
   Buffer nothing_;
   SceneBuffers whole_, isolated_;  // a trace has both in turn
+  SceneBuffers around_;            // the outline of the mesh
   Buffer highlight_vertices_;
   Buffer highlight_lines_;
   const SceneBuffers* scene_ = nullptr;  // what is drawn
+  bool has_outline_ = false;             // around it
   unsigned highlight_revision_ = 0;
 };
 

@@ -73,6 +73,17 @@ void main() {
 }
 )glsl";
 
+// Glass: clear where it faces the eye, denser at the rim. From the corners and normals of a surface.
+inline constexpr const char* kOutlineFragment = R"glsl(#version 330 core
+flat in vec3 face_normal;
+uniform vec3 tint;
+out vec4 colour;
+void main() {
+  float slant = 1.0 - abs(normalize(face_normal).z);
+  colour = vec4(tint, 0.06 + 0.30 * slant * slant);
+}
+)glsl";
+
 // Each instance is a line, drawn as a rectangle of constant width on the screen.
 inline constexpr const char* kLineVertex = R"glsl(#version 330 core
 layout(location = 0) in vec3 from;

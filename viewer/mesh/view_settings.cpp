@@ -192,6 +192,7 @@ void visit(Visitor& v, View& view) {
   v("peel", s.peel, {0, 1000000});
   v("shrink", s.shrink, {0, 0.9});
   v("ghosts", s.ghosts, {0, 1});
+  v("outline", s.outline);
   v("reference", s.reference, {0, 1});
   v("both_ways", s.both_ways);
   v("constraints", s.constraints);

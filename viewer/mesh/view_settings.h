@@ -43,6 +43,7 @@ struct SceneSettings {
   int peel = 0;            ///< layers of tets taken off the boundary
   double shrink = 0;       ///< of each tet towards its centre, 0 to 0.9
   double ghosts = 0;       ///< opacity of the boundary of hidden tets, 0 to 1
+  bool outline = true;     ///< of the mesh, faint, where a filter or isolation leaves parts of it
   double reference = 0;    ///< opacity of the surface that this one is compared with, 0 to 1
   bool both_ways = false;  ///< kDistance: also how far the other surface lies from this one
   bool constraints = false;

@@ -157,6 +157,11 @@ void draw_display_panel(Session& session) {
   ImGui::Checkbox("edges", &view.edges);
   ImGui::SameLine();
   ImGui::Checkbox("constraints", &scene.constraints);
+  ImGui::SameLine();
+  ImGui::Checkbox("outline", &scene.outline);
+  if (ImGui::IsItemHovered()) {
+    ImGui::SetTooltip("the mesh, faint, around what a filter or isolation leaves of it");
+  }
   constexpr int kMostLayers = 20;
   name("peel");
   const int none = 0;

@@ -177,7 +177,7 @@ TEST_CASE("the camera finds each isolated call, and what is isolated is never no
 }
 
 TEST_CASE(
-    "what is picked in a trace and isolated is brought into sight, the rest around it a ghost") {
+    "what is picked in a trace and isolated is brought into sight, the rest around it an outline") {
   const test::TracedBall trace;
   TraceSession s(trace.path());
   s.run("to_end");
@@ -189,7 +189,8 @@ TEST_CASE(
   CHECK(s.document.scene().tets_shown > 1);  // only pointed out
   s.run("isolate");
   CHECK(s.document.scene().tets_shown == 1);
-  CHECK(s.document.scene().ghosts.size() > 100);
+  REQUIRE(s.document.outline() != nullptr);
+  CHECK(s.document.outline()->surface.size() > 100);
   const auto share = [&] {
     double high = -1e9, low = 1e9;
     for (const auto& corner : corners(s.document.mesh(), s.document.worst().front())) {
@@ -203,8 +204,34 @@ TEST_CASE(
   CHECK(share() > 0.1);
   s.run("isolate");
   CHECK(s.document.scene().tets_shown > 1);
-  CHECK(s.document.scene().ghosts.empty());
+  CHECK(s.document.outline() == nullptr);
   CHECK(s.document.view.camera == before);
+}
+
+TEST_CASE("the outline around isolated calls is that of the mesh at each place of a trace") {
+  const test::TracedBall trace;
+  TraceSession s(trace.path());
+  const auto places = [](const Scene& scene) {
+    std::vector<std::array<float, 3>> list;
+    for (const SurfaceVertex& v : scene.surface)
+      list.push_back({v.position.x, v.position.y, v.position.z});
+    std::sort(list.begin(), list.end());
+    return list;
+  };
+  s.run("next_accepted");
+  REQUIRE(s.document.is_isolated());
+  REQUIRE(s.document.outline() != nullptr);
+  for (int i = 0; i < 20; ++i) {
+    s.run("next_accepted");
+    s.run("step_out");
+    s.run("next_refused");
+    if (s.document.outline() == nullptr) continue;
+    SceneSettings plain;
+    plain.bad = false;
+    const auto truth =
+        build_scene({s.document.mesh(), plain, {}, {}, {}, std::nullopt, s.document.ball()});
+    CHECK(places(*s.document.outline()) == places(truth));
+  }
 }
 
 TEST_CASE("before its first call a lesson has the numbers of its vertices in the picture") {
@@ -236,6 +263,36 @@ TEST_CASE("what a call makes is not shown before it has made it") {
     if (debugger.call() == k) CHECK(has_chords());
   }
   CHECK(seen == 5);
+}
+
+TEST_CASE("each colour of a visit and of a call at a vertex has one entry in the legend") {
+  const test::TracedBall trace;
+  TraceSession s(trace.path());
+  const auto check_once = [&](const std::vector<Colour>& wanted) {
+    const std::vector<LegendEntry> entries = s.document.legend();
+    for (const Colour& colour : wanted) {
+      CHECK(std::count_if(entries.begin(), entries.end(),
+                          [&](const LegendEntry& entry) { return entry.colour == colour; }) == 1);
+    }
+    return entries.back().text;
+  };
+  s.run("run_to", {"visit 1"});
+  REQUIRE(std::holds_alternative<TetHandle>(s.document.selection()));
+  CHECK(check_once({kSelectionColour}) == "tets beside it");
+  CHECK(s.document.legend().front().text == "t of visit 1");
+  unsigned seen = 0;
+  const auto calls = s.document.debugger()->file().calls();
+  for (std::uint32_t k = 0; k < calls.size() && seen < 4; ++k) {
+    if (calls[k].target_size != 1 || !calls[k].candidate_found) continue;
+    ++seen;
+    s.run("enter", {k});
+    CHECK(check_once({kSupportingEdgeColour, kSkirtColour}) == "tets before the call");
+    s.run("seek", {calls[k].events.end});
+    if (s.document.debugger()->call() != k || calls[k].edits == 0) continue;
+    CHECK(check_once({kSupportingEdgeColour, kSkirtColour}) ==
+          (calls[k].accepted() ? "tets after the call" : "tets as before: undone"));
+  }
+  CHECK(seen == 4);
 }
 
 TEST_CASE("a step of the recursion shows the shell of its caller and the face to remove") {

@@ -25,6 +25,7 @@
 #include "tests/viewer/session.h"
 #include "trace/trace_file.h"
 #include "viewer/commands/script.h"
+#include "viewer/overlay.h"
 
 using namespace tetmend;
 using namespace tetmend::viewer;
@@ -850,6 +851,13 @@ TEST_CASE("the camera goes to each change of a run, and back when it is over") {
              "t.lua");
   const LiveProgress progress = s.document.live.progress();
   REQUIRE(progress.last_accepted);
+  // What is marked there has a legend, as a call of a trace has.
+  REQUIRE_FALSE(s.document.highlighted().lines.empty());
+  REQUIRE_FALSE(s.document.legend().empty());
+  CHECK(s.document.legend().front().colour == s.document.highlighted().lines.front().colour);
+  CHECK(s.document.legend().front().text.ends_with(
+      fmt::format("that call {} aimed at, accepted", progress.last_accepted->number)));
+  CHECK_FALSE(draw_overlay(s.document, {}).shapes.empty());
   const Point& place = progress.last_accepted->place;
   CHECK(glm::distance(s.document.view.camera.target, glm::dvec3(place.x(), place.y(), place.z())) <
         1e-9);
@@ -857,6 +865,7 @@ TEST_CASE("the camera goes to each change of a run, and back when it is over") {
   CHECK_FALSE(s.document.follow_changes_live);
   s.run("live_stop");
   REQUIRE(s.run("live_wait")["state"] == "stopped");
+  CHECK(draw_overlay(s.document, {}).shapes.empty());
   CHECK(s.document.view.camera == before);
 }
 

@@ -199,6 +199,40 @@ TEST_CASE("ghosts are the boundary of what is hidden") {
   CHECK(area(s.document.scene().ghosts) == doctest::Approx(1 + 4 * 0.5));
 }
 
+TEST_CASE(
+    "what a filter, a hidden region or isolation leaves has the mesh as an outline around it") {
+  TestSession s(test::two_regions());
+  REQUIRE(s.document.outline() == nullptr);  // nothing is hidden so
+  s.run("cut", {1});
+  CHECK(s.document.outline() == nullptr);  // a cut shows what it leaves
+  s.run("show_all");
+  const auto is_whole = [&] {
+    const Scene* outline = s.document.outline();
+    return outline != nullptr && std::abs(area(outline->surface) - 6) < 1e-9 &&
+           outline->through.empty();
+  };
+  s.run("filter", {2, 3});  // no tet at all
+  CHECK(s.document.scene().surface.empty());
+  CHECK(is_whole());
+  s.run("outline");
+  CHECK(s.document.outline() == nullptr);
+  s.run("outline");
+  s.run("ghosts", {0.2});
+  CHECK(s.document.outline() == nullptr);  // one of them is enough
+  s.run("ghosts", {0});
+  CHECK(is_whole());
+  s.run("show_all");
+  CHECK(s.document.outline() == nullptr);
+  s.run("view", {{{"hidden_regions", {2}}}});
+  CHECK(is_whole());
+  s.run("show_all");
+  s.run("worst");
+  CHECK(s.document.scene().tets_shown == 1);
+  CHECK(is_whole());
+  s.run("deselect");
+  CHECK(s.document.outline() == nullptr);
+}
+
 TEST_CASE("colours of a measure follow the map") {
   TestSession s(test::kuhn_cube(2, 0, 1));
   s.run("colour", {"min_sine"});
