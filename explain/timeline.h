@@ -28,7 +28,8 @@ struct Timeline {
 /// A sample after each change of a number, so that curves are steps; with more changes than
 /// `samples`, about as many evenly spaced ones. Plays the trace once and leaves the replay at 0.
 /// Cost: about two microseconds an event.
-/// @param start the mesh at 0, where that is at hand: it knows the qualities of its tets
+/// @param start the mesh at 0, where that is at hand: it knows the qualities of its tets. Of a trace
+/// of one pass the bad ones are then not counted, but taken from its end
 Timeline make_timeline(const TraceFile& file, Replay& replay, const TetMesh* start = nullptr,
                        std::size_t samples = 200000);
 

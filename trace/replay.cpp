@@ -5,6 +5,8 @@
 
 #include <algorithm>
 
+#include "kernel/star.h"
+
 namespace tetmend {
 
 namespace {
@@ -108,9 +110,37 @@ void Replay::shorten_log() {
   playback_.shorten_log(*std::upper_bound(begins.begin(), begins.end(), middle));
 }
 
+void Replay::lend(const TetMesh& start) {
+  if (start_ == nullptr) lent_ = changes().mark();
+  start_ = &start;
+}
+
+/// Those around it at the beginning, and all that were written since; false where that is not known.
+bool Replay::add_tets_of(VertexHandle v, std::vector<TetHandle>& tets) {
+  const ChangeLog::Changes changed = changes().since(lent_);
+  if (start_ == nullptr || changed.everything) return false;
+  tets.assign(changed.tets.begin(), changed.tets.end());
+  const bool was_there =
+      v.index() < start_->vertex_slots() && !start_->is_deleted(v) && start_->tet_of(v).is_valid();
+  if (was_there) {
+    for (const TetHandle t : star(*start_, v)) tets.push_back(t);
+  }
+  std::sort(tets.begin(), tets.end());
+  tets.erase(std::unique(tets.begin(), tets.end()), tets.end());
+  return true;
+}
+
 std::vector<TetHandle> Replay::tets_around(std::span<const VertexHandle> vertices) {
   if (vertices.empty()) return {};
   std::vector<TetHandle> tets;
+  const auto is_no_such = [&](TetHandle t) {
+    return mesh().is_deleted(t) || !holds_all_of(mesh().vertices(t), vertices);
+  };
+  if (add_tets_of(vertices.front(), tets)) {
+    std::erase_if(tets, is_no_such);
+    // Parts that touch in the vertex alone are not all seen from one of its tets.
+    if (!tets.empty()) return tets;
+  }
   if (looks_ < kFewLooks) {
     ++looks_;
     for (std::uint32_t slot = 0; slot < mesh().tet_slots(); ++slot) {

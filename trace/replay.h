@@ -58,6 +58,10 @@ class Replay {
   /// Tets that contain all of these vertices, by slot. Cost: that of what changed since the last
   /// question; each of the first few times, a look at all tets, and then once a list of them by vertex.
   std::vector<TetHandle> tets_around(std::span<const VertexHandle> vertices);
+  /// The mesh at event 0 as one that knows its neighbours: tets_around() then costs little from the
+  /// first question on. It must stay as it is, and be lent again where it has moved.
+  /// Precondition, the first time: at event 0.
+  void lend(const TetMesh& start);
 
  private:
   struct Keyframe {
@@ -70,6 +74,7 @@ class Replay {
   void restore(const Keyframe& keyframe);
   void forward_to(std::uint64_t position);
   void shorten_log();
+  bool add_tets_of(VertexHandle v, std::vector<TetHandle>& tets);
   const TraceFile& file_;
   std::uint64_t distance_;  // of keyframes
   EventCursor cursor_;
@@ -77,7 +82,9 @@ class Replay {
   std::uint64_t position_ = 0;
   std::vector<Keyframe> keyframes_;
   VertexTets vertex_tets_;
-  unsigned looks_ = 0;  // at all tets
+  unsigned looks_ = 0;              // at all tets
+  const TetMesh* start_ = nullptr;  // at event 0
+  ChangeLog::Mark lent_;            // what was written then
 };
 
 }  // namespace tetmend

@@ -136,10 +136,11 @@ void Document::show(OpenedFile opened) {
 }
 
 /// In place of what is shown, under its name.
-void Document::show_debugger(std::unique_ptr<Debugger> debugger, MeasuredMesh mesh, Shows what) {
+void Document::show_debugger(std::unique_ptr<Debugger> debugger, MeasuredMesh mesh, Shows what,
+                             const std::vector<TetHandle>* others) {
   // At first: else nothing of a call inside is seen.
   const bool isolate = debugger_ == nullptr || view.scene.isolate;
-  set_mesh(std::move(mesh), std::string(file_));
+  replace_mesh(std::move(mesh), std::string(file_), others);
   debugger_ = std::move(debugger);
   view.scene.isolate = isolate;
   teaching = debugger_->lesson().has_value();
@@ -196,6 +197,13 @@ void Document::set_mesh(TetMesh mesh, const std::string& name) {
 }
 
 void Document::set_mesh(MeasuredMesh mesh, const std::string& name) {
+  replace_mesh(std::move(mesh), name, nullptr);
+}
+
+/// What is known of tets of all other slots stays.
+void Document::replace_mesh(MeasuredMesh mesh, const std::string& name,
+                            const std::vector<TetHandle>* others) {
+  const std::vector<TetHandle> changed = others != nullptr ? *others : std::vector<TetHandle>();
   if (debugger_ != nullptr) view.scene.isolate = false;  // it is for the calls of a trace
   debugger_.reset();
   debugs_live_ = false;
@@ -222,7 +230,11 @@ void Document::set_mesh(MeasuredMesh mesh, const std::string& name) {
   ball_ = mesh.ball;
   statistics_ = mesh.statistics;
   regions_ = std::move(mesh.regions);
-  forget_derived();
+  if (others != nullptr && view.scene.colour != kDistance) {
+    follow_changes(changed);
+  } else {
+    forget_derived();
+  }
   select({});
   camera_before_alone_.reset();
   if (!keep_view) go_home();
@@ -347,8 +359,8 @@ std::unique_ptr<Document::Shown> Document::put_aside() {
   return shown;
 }
 
-void Document::show_again(Shown& shown) {
-  set_mesh(std::move(shown.mesh), shown.file);
+void Document::show_again(Shown& shown, const std::vector<TetHandle>& others) {
+  replace_mesh(std::move(shown.mesh), shown.file, &others);
   not_saved_ = std::move(shown.not_saved);
   data_ = std::move(shown.data);
   notes_ = std::move(shown.notes);
@@ -372,8 +384,16 @@ void Document::try_operator(const TrialRequest& request) {
   }
   const TetMesh& mesh = aside_ != nullptr ? aside_->mesh.mesh : mesh_;
   auto trial = std::make_unique<Trial>(mesh, live.registry(), request, file_);
+  std::vector<TetHandle> others = trial->changed();
+  if (trial_ != nullptr) {
+    others.insert(others.end(), trial_->changed().begin(), trial_->changed().end());
+    std::sort(others.begin(), others.end());
+    others.erase(std::unique(others.begin(), others.end()), others.end());
+  }
   std::unique_ptr<Shown> aside = aside_ != nullptr ? std::move(aside_) : put_aside();
   const Camera camera = view.camera;
+  auto debugger = trial->take_debugger();
+  debugger->lend(aside->mesh.mesh);
   MeasuredMesh tried;
   tried.mesh = trial->take_mesh();
   tried.box = aside->mesh.box;
@@ -381,9 +401,9 @@ void Document::try_operator(const TrialRequest& request) {
   tried.statistics = aside->mesh.statistics;
   tried.regions = aside->mesh.regions;
   try {
-    show_debugger(trial->take_debugger(), std::move(tried), Shows::trial);
+    show_debugger(std::move(debugger), std::move(tried), Shows::trial, &others);
   } catch (...) {
-    show_again(*aside);
+    show_again(*aside, others);
     throw;
   }
   view.camera = camera;
@@ -398,7 +418,8 @@ void Document::undo_trial() {
   if (trial_ == nullptr) throw Error("undo: no operator was tried");
   const std::string name = trial_->request().operator_name;
   const auto aside = std::move(aside_);
-  show_again(*aside);
+  const std::vector<TetHandle> others = trial_->changed();
+  show_again(*aside, others);
   message = {fmt::format("{}: undone, the mesh is as it was", name), false};
 }
 

@@ -291,10 +291,13 @@ class Document {
   /// What a trial puts aside, to be shown again.
   struct Shown;
   std::unique_ptr<Shown> put_aside();
-  void show_again(Shown& shown);
+  void show_again(Shown& shown, const std::vector<TetHandle>& others);
   enum class Shows : bool { trace, trial };
+  /// `others`: the only slots in which the mesh differs from the one shown; null: it is another.
   void show_debugger(std::unique_ptr<Debugger> debugger, MeasuredMesh mesh,
-                     Shows what = Shows::trace);
+                     Shows what = Shows::trace, const std::vector<TetHandle>* others = nullptr);
+  void replace_mesh(MeasuredMesh mesh, const std::string& name,
+                    const std::vector<TetHandle>* others);
   std::shared_ptr<const MeshData> data_shown() const;
   void remember(const std::filesystem::path& file);
   void forget_derived();

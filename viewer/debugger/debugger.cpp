@@ -19,7 +19,9 @@ Debugger::Debugger(const std::string& name, std::string_view bytes)
     : Debugger(TraceFile(name, bytes)) {}
 
 Debugger::Debugger(const std::string& name, std::string_view bytes, const TetMesh& start)
-    : Debugger(TraceFile(name, bytes, SlotMesh(start)), &start) {}
+    : Debugger(TraceFile(name, bytes, SlotMesh(start)), &start) {
+  replay_.lend(start);
+}
 
 void Debugger::seek(std::uint64_t position) {
   const std::uint32_t before = call();

@@ -85,6 +85,9 @@ class Debugger {
   TetMesh mesh();
   /// Instead of mesh(), for who has the mesh of now with the handle numbers of the run.
   void know_mesh() { trace_mesh_.know(replay_); }
+  /// The mesh that the events begin with has moved there. Precondition: it was given when this was
+  /// made.
+  void lend(const TetMesh& start) { replay_.lend(start); }
   /// Makes the mesh that mesh() gave last the one of now. Cost: that of what changed meanwhile.
   MeshStep follow(TetMesh& mesh) { return trace_mesh_.follow(replay_, mesh); }
   /// Tets that contain all of these vertices, by slot.

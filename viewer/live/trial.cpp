@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "viewer/live/trial.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -29,6 +30,22 @@ std::string in_words(const Call& call) {
   if (!std::isfinite(missing)) return fmt::format("refused: {}", verdict);
   if (missing <= 0) return fmt::format("refused: {}; the worst tet is no reason", verdict);
   return fmt::format("refused: {}; {:.4f} of quality were missing", verdict, missing);
+}
+
+/// The slots that the events write.
+std::vector<TetHandle> slots_written(const TraceFile& file) {
+  std::vector<TetHandle> slots;
+  EventCursor cursor(file);
+  for (std::uint64_t k = 0; k < file.event_count(); ++k) {
+    const TraceEvent& event = cursor.next();
+    if (event.kind != EventKind::replace_cavity && event.kind != EventKind::move_vertex) continue;
+    slots.insert(slots.end(), event.removed.begin(), event.removed.end());
+    if (event.kind == EventKind::move_vertex) continue;
+    slots.insert(slots.end(), event.created.begin(), event.created.end());
+  }
+  std::sort(slots.begin(), slots.end());
+  slots.erase(std::unique(slots.begin(), slots.end()), slots.end());
+  return slots;
 }
 
 }  // namespace
@@ -73,6 +90,7 @@ Trial::Trial(const TetMesh& mesh, const Registry& registry, TrialRequest request
   seconds_ = call_.events.seconds();
   debugger_->seek(call_.events.end);
   debugger_->know_mesh();
+  changed_ = slots_written(debugger_->file());
 }
 
 void Trial::make_on(TetMesh& mesh, const Registry& registry) const {

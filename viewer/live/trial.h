@@ -44,6 +44,8 @@ class Trial {
   /// "refused, no improvement: 0.0123 of quality are missing".
   const std::string& outcome() const { return outcome_; }
   double seconds() const { return seconds_; }  ///< that the attempt took
+  /// The slots in which the mesh may be another, at whatever place of the attempt; ascending.
+  const std::vector<TetHandle>& changed() const { return changed_; }
   /// The mesh as the attempt has left it, with the slots of the mesh before. To be asked for once.
   TetMesh take_mesh() { return std::move(mesh_); }
   /// Makes the same attempt on another mesh: the one that was tried, or a copy of it.
@@ -57,6 +59,7 @@ class Trial {
   bool is_accepted_ = false;
   std::string outcome_;
   double seconds_ = 0;
+  std::vector<TetHandle> changed_;
 };
 
 }  // namespace tetmend::viewer

@@ -50,15 +50,19 @@ void TetLists::forget() {
 void TetLists::update(const TetMesh& mesh, std::span<const TetHandle> changed) {
   for (auto& [measure, values] : values_) {
     const TetValue& value = find_tet_value(measure);
-    values.resize(mesh.tet_slots(), std::numeric_limits<float>::quiet_NaN());
+    constexpr float kNoTet = std::numeric_limits<float>::quiet_NaN();
+    const std::size_t slots = mesh.tet_slots();
+    values.resize(std::max(slots, values.size()), kNoTet);
     for (const TetHandle t : changed) {
+      if (t.index() >= values.size()) continue;
       const float before = values[t.index()];
-      values[t.index()] = evaluate_tet(mesh, value, t);
+      values[t.index()] = t.index() < slots ? evaluate_tet(mesh, value, t) : kNoTet;
       if (measure != listed_) continue;
       histogram_.remove(before);
       histogram_.add(values[t.index()]);
       order_.change(t, before, values);
     }
+    values.resize(slots);
   }
   worst_ = order_.list();
 }

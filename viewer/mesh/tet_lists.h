@@ -43,7 +43,7 @@ class TetLists {
 
   /// Another mesh.
   void forget();
-  /// These slots have other tets, or tets of other shape.
+  /// These slots have other tets, or tets of other shape; among them those that have come or gone.
   void update(const TetMesh& mesh, std::span<const TetHandle> changed);
 
   /// By slot. `measure` is a name of tet_values(). @throws Error for another.

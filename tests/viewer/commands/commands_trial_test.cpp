@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 
 #include <doctest/doctest.h>
 
+#include "explain/timeline.h"
 #include "kernel/error.h"
 #include "kernel/formats/mesh_io.h"
 #include "kernel/mesh_view.h"
 #include "tests/kernel/formats/fixtures.h"
 #include "tests/support/second_order.h"
 #include "tests/viewer/session.h"
+#include "trace/replay.h"
 #include "viewer/commands/script.h"
 
 using namespace tetmend;
@@ -66,6 +69,89 @@ TEST_CASE("an operator that was tried is a call of the debugger, and undo leaves
   CHECK(s.document.debugger() == nullptr);
   CHECK(state_of(s.document)["trial"].is_null());
   CHECK(to_json(s.document.view) == view);
+}
+
+namespace {
+
+/// What is known of the mesh that is shown is what a look at the whole of it tells.
+void check_derived(Document& document) {
+  const TetMesh& mesh = document.mesh();
+  TetLists fresh;
+  CHECK(document.worst() == fresh.worst(mesh, "quality"));
+  CHECK(
+      std::ranges::equal(document.histogram().counts(), fresh.histogram(mesh, "quality").counts()));
+  CHECK(document.statistics().n_bad == compute_statistics(mesh, mesh.standard().goal()).n_bad);
+  CHECK(document.statistics().q_worst == compute_statistics(mesh, mesh.standard().goal()).q_worst);
+  SceneSettings settings = document.view.scene;
+  settings.isolate = false;
+  const Scene truth =
+      build_scene({mesh, settings, {document.values(), {}}, {}, {}, std::nullopt, document.ball()});
+  const bool was_isolated = document.view.scene.isolate;
+  document.view.scene.isolate = false;
+  const Scene& shown = document.scene();
+  CHECK(shown.tets_shown == truth.tets_shown);
+  CHECK(shown.bad_shown == truth.bad_shown);
+  const auto sorted = [](std::vector<TetHandle> tets) {
+    std::sort(tets.begin(), tets.end());
+    return tets;
+  };
+  CHECK(sorted(shown.surface_tets) == sorted(truth.surface_tets));
+  CHECK(sorted(shown.through_tets) == sorted(truth.through_tets));
+  document.view.scene.isolate = was_isolated;
+}
+
+/// The tets of what a call aimed at, by a look at all.
+void check_tets_around(Document& document) {
+  Debugger& debugger = *document.debugger();
+  for (const Call& call : debugger.file().calls()) {
+    std::vector<TetHandle> found;
+    for (std::uint32_t i = 0; i < document.mesh().tet_slots(); ++i) {
+      const TetHandle t(i);
+      const auto target = call.target();
+      const bool has_all = std::all_of(target.begin(), target.end(), [&](VertexHandle v) {
+        return document.mesh().local_index(t, v) < 4;
+      });
+      if (!document.mesh().is_deleted(t) && has_all) found.push_back(t);
+    }
+    CHECK(debugger.tets_around(call.target()) == found);
+  }
+}
+
+}  // namespace
+
+TEST_CASE(
+    "a trial and its undo look at what they change alone, and all that is known stays right") {
+  TestSession s(sheet());
+  check_derived(s.document);
+  const std::uint64_t scene = s.document.scene().number;
+  const std::vector<TetHandle> worst = s.document.worst();
+  unsigned accepted = 0;
+  for (const char* name : {"edge_split", "recursive_shell_transformation", "edge_removal"}) {
+    for (std::size_t k = 0; k < 6; ++k) {
+      const TetVertices v = s.document.mesh().vertices(worst[k]);
+      const json edge = {v[k % 3].index(), v[3].index()};
+      accepted += s.run("try_operator", {{{"operator", name}, {"edge", edge}}})["accepted"] == true;
+      check_derived(s.document);
+      Debugger& debugger = *s.document.debugger();
+      Replay replay(debugger.file());
+      const auto timeline = explain::make_timeline(debugger.file(), replay);
+      REQUIRE(debugger.timeline().samples.size() == timeline.samples.size());
+      for (std::size_t i = 0; i < timeline.samples.size(); ++i) {
+        CHECK(debugger.timeline().samples[i].n_bad == timeline.samples[i].n_bad);
+        CHECK(debugger.timeline().samples[i].q_worst == timeline.samples[i].q_worst);
+      }
+      for (const char* step : {"back_into", "back_into", "step_into", "to_begin", "to_end"}) {
+        s.run(step);
+        check_tets_around(s.document);
+      }
+      if (k % 2 == 0) continue;  // the next one is tried on the mesh as it was all the same
+      s.run("undo");
+      check_derived(s.document);
+      CHECK(s.document.scene().number == scene);  // nothing was built anew
+    }
+    s.run("undo");
+  }
+  CHECK(accepted > 2);
 }
 
 TEST_CASE("what is kept is in the mesh and unsaved until it is written") {
