@@ -52,9 +52,10 @@ std::vector<CellChoice> choices_of(const PocketTables& tables, const TableCell& 
 }
 
 bool TableFilling::is_filled(unsigned i, unsigned j) const {
-  const auto end = cells.begin() + static_cast<std::ptrdiff_t>(filled);
-  return std::any_of(cells.begin(), end,
-                     [&](const TableCell& cell) { return cell.i == i && cell.j == j; });
+  if (cells.empty()) return false;
+  const unsigned m = cells.back().d + 1;
+  const unsigned d = (j + m - i) % m;
+  return d >= 2 && std::size_t{d - 2} * m + i < filled;
 }
 
 std::optional<TableCell> TableFilling::here() const {

@@ -144,7 +144,7 @@ class PolygonDrawer {
       unsigned circles;
       double share;
     };
-    constexpr std::array<Try, 10> kTries = {{{1, 1},
+    constexpr std::array<Try, 12> kTries = {{{1, 1},
                                              {1, 0.85},
                                              {2, 1},
                                              {2, 0.85},
@@ -153,7 +153,9 @@ class PolygonDrawer {
                                              {3, 0.85},
                                              {3, 0.7},
                                              {2, 0.55},
-                                             {3, 0.55}}};
+                                             {3, 0.55},
+                                             {3, 0.45},
+                                             {4, 0.45}}};
     for (const Try& tried : kTries) {
       circles_ = tried.circles;
       name_size_ = tried.share * look_.name_size;

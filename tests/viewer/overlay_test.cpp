@@ -77,6 +77,18 @@ TEST_CASE("a scale bar is as long as it says") {
   CHECK(pixels > 0.08 * s.document.canvas.width);
 }
 
+TEST_CASE("the words of a short scale bar begin in the picture") {
+  TestSession s(test::kuhn_cube(2, 0, 1));
+  s.document.resize({260, 200});
+  s.run("scale_bar");
+  const figure::Drawing drawing = draw_overlay(s.document, {.scale = 1.5});
+  const auto found = std::find_if(
+      drawing.shapes.begin(), drawing.shapes.end(),
+      [](const figure::Shape& shape) { return std::holds_alternative<figure::Text>(shape); });
+  REQUIRE(found != drawing.shapes.end());
+  CHECK(box_of(std::get<figure::Text>(*found)).left >= 0);
+}
+
 TEST_CASE("the axes stand at the lower right, and opposite to a colour bar over the scale bar") {
   TestSession s(test::kuhn_cube(2, 0, 1));
   const auto place_of_x = [&] {

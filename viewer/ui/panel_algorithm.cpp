@@ -44,29 +44,32 @@ float lines_below(bool is_whole) {
   return is_whole ? kFew : kCallerLines;
 }
 
-/// Makes the text of the window as small as it needs to be seen whole.
-void fit_text(const Pseudocode& code) {
-  constexpr float kLeast = 0.6F;
-  constexpr float kStep = 0.05F;
-  const float room = ImGui::GetContentRegionAvail().y;
+/// Makes the text of the window so small that no line has breaks, if that is not much; `is_whole`: so
+/// small that all is seen.
+void fit_text(const Pseudocode& code, bool is_whole) {
+  constexpr float kLeast = 0.6F, kLeastUnbroken = 0.8F, kStep = 0.05F;
   constexpr float kTitle = 1;
-  constexpr float kLeastUnbroken = 0.8F;  // below that, lines rather have breaks
-  for (const bool is_unbroken : {true, false}) {
-    for (float share = 1; share > (is_unbroken ? kLeastUnbroken : kLeast); share -= kStep) {
-      ImGui::SetWindowFontScale(share);
-      const auto lines = wrap_code(code, ImGui::GetContentRegionAvail().x);
-      const bool has_breaks = std::any_of(lines.begin(), lines.end(),
-                                          [](const CodeLine& line) { return line.rows() > 1; });
-      const float height =
-          height_of(lines) + (kTitle + lines_below(true)) * ImGui::GetTextLineHeightWithSpacing();
-      if (height <= room && !(is_unbroken && has_breaks)) return;
-    }
+  const auto fits = [&](float share, bool has_height, bool is_unbroken) {
+    ImGui::SetWindowFontScale(share);
+    const ImVec2 room = ImGui::GetContentRegionAvail();
+    const auto lines = wrap_code(code, room.x);
+    const bool is_broken = std::any_of(lines.begin(), lines.end(),
+                                       [](const CodeLine& line) { return line.rows() > 1; });
+    if (is_unbroken && is_broken) return false;
+    const float around = (kTitle + lines_below(true)) * ImGui::GetTextLineHeightWithSpacing();
+    return !has_height || height_of(lines) + around <= room.y;
+  };
+  for (float share = 1; share > kLeastUnbroken; share -= kStep) {
+    if (fits(share, is_whole, true)) return;
+  }
+  for (float share = 1; share > kLeast; share -= kStep) {
+    if (fits(share, is_whole, false)) return;
   }
 }
 
 /// `is_new`: the line is to be brought into sight.
 void show_code(const Pseudocode& code, unsigned line, bool is_new, bool is_whole) {
-  if (is_whole) fit_text(code);
+  fit_text(code, is_whole);
   wrapped_text(code.title);
   const ImVec2 avail = ImGui::GetContentRegionAvail();
   const float room =
@@ -161,7 +164,9 @@ float algorithm_height(const Session& session) {
          2 * ImGui::GetStyle().WindowPadding.y;
 }
 
-void draw_algorithm_panel(Session& session, bool is_whole) {
+namespace {
+
+void show_algorithm(Session& session, bool is_whole) {
   Debugger& debugger = *session.document.debugger();
   const auto& stack = debugger.stack();
   const auto place_of = [&](std::size_t i) {
@@ -185,6 +190,13 @@ void draw_algorithm_panel(Session& session, bool is_whole) {
   const CodePlace caller = stack.size() > 1 ? place_of(stack.size() - 2) : pass;
   if (caller.code == nullptr) return;
   tell_caller(caller);
+}
+
+}  // namespace
+
+void draw_algorithm_panel(Session& session, bool is_whole) {
+  show_algorithm(session, is_whole);
+  ImGui::SetWindowFontScale(1);
 }
 
 }  // namespace tetmend::viewer::ui

@@ -232,7 +232,7 @@ TEST_CASE("the ring of a lesson has the room that its text leaves in a window of
                                    picture("a.png"), picture("b.png")));
   CHECK(outcome.err == "");
   REQUIRE(outcome.status == 0);
-  CHECK(extent_of_ring(read_png(folder / "a.png"), 800, 1280)[1] > 290);
+  CHECK(extent_of_ring(read_png(folder / "a.png"), 800, 1280)[1] > 270);
   CHECK(extent_of_ring(read_png(folder / "b.png"), 560, 1280)[1] > 330);
 }
 

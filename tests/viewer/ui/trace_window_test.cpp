@@ -92,6 +92,26 @@ const std::filesystem::path kLesson = TETMEND_SOURCE_DIR "/assets/lessons/2-two-
 
 }  // namespace
 
+TEST_CASE("in a small window, and with large text there, buttons of steps are in sight in a call") {
+  if (!can_test_window()) return;
+  struct Place {
+    const char* scale;
+    int x, into, back;
+  };
+  for (const Place& place : {Place{"1", 960, 397, 425}, Place{"1.5", 800, 518, 558}}) {
+    CAPTURE(place.scale);
+    Viewer viewer(kLesson, "1280x720", place.scale);
+    go_to_second_shell();
+    wait_until_still();
+    click(place.x, place.into);
+    click(place.x, place.into);
+    click(place.x, place.back);
+    const auto state = viewer.quit();
+    CHECK(state["trace"]["position"] == 9);
+    CHECK(state["trace"]["call"]["operator"] == "shell_transformation");
+  }
+}
+
 TEST_CASE("what the mouse is on is pointed at: in tree, icicles, breadcrumb, ring and picture") {
   if (!can_test_window()) return;
   struct Place {

@@ -64,7 +64,7 @@ TEST_CASE(
   show_code_line(broken);
   const float height = ImGui::GetCursorPosY() - top;
   CHECK(height == doctest::Approx(static_cast<float>(broken.rows()) * ImGui::GetTextLineHeight()));
-  CHECK(ImGui::GetItemRectMin().x > ImGui::GetWindowPos().x + broken.indent + width_of("    "));
+  CHECK(ImGui::GetItemRectMin().x > ImGui::GetWindowPos().x + broken.indent + ImGui::GetFontSize());
 }
 
 TEST_CASE("a row of a list has as many lines as its text needs") {
