@@ -216,7 +216,8 @@ void FebioMesh::read_elements(pugi::xml_node block) {
     add_element(node, *kind);
     set.elements.push_back(static_cast<std::uint32_t>(elements_.size() - 1));
     const bool is_tet = kind->vtk_type == vtk_tet || kind->vtk_type == vtk_tet10;
-    if (!is_tet) pin_words(node, "Elements");
+    // Of solids and quadrilaterals the mesh changes none; a surface that moves has other triangles.
+    if (kind->corners == 3) pin_words(node, "Elements");
     (is_tet ? has_tets : has_others) = true;
   }
   if (has_tets && has_others)

@@ -276,6 +276,12 @@ class FebioWriter {
     return xml_escaped(names_[dimension].make(wanted));
   }
 
+  bool has_several_kinds(Label label) const {
+    const auto& members = of_label_.at(label);
+    return std::any_of(members.begin(), members.end(),
+                       [&](const auto& member) { return member.list != members[0].list; });
+  }
+
   /// A block for each kind and label of volumes.
   void write_blocks(std::set<const Group*>& written) {
     std::map<Label, const Group*> named;
@@ -285,7 +291,8 @@ class FebioWriter {
       std::set<Label> labels;  // a reader numbers what has a name by its place
       for (std::size_t i = 0; i < list->count; ++i) labels.insert(list->label(i));
       for (const Label label : labels) {
-        const auto found = named.find(label);
+        auto found = named.find(label);
+        if (has_several_kinds(label)) found = named.end();  // each block has a name of its own
         if (found != named.end()) written.insert(found->second);
         out_.put(
             fmt::format("\t\t<Elements type=\"{}\" name=\"{}\">", febio_type(list->kind.vtk_type),

@@ -66,11 +66,17 @@ struct LostNotes {
   std::vector<std::string> sentences;
 };
 
-/// How many labels tets have; 0 if they are all the same: nothing is told apart by them.
-std::size_t several_labels(const std::vector<MeshData::Tet>& tets) {
+/// How many labels volumes have; 0 if they are all the same: nothing is told apart by them.
+std::size_t several_volume_labels(const MeshData& mesh) {
   std::set<Label> labels;
-  for (const MeshData::Tet& tet : tets) {
-    if (labels.empty() || tet.label != *labels.begin()) labels.insert(tet.label);
+  const auto add = [&](Label label) {
+    if (labels.empty() || label != *labels.begin()) labels.insert(label);
+  };
+  for (const MeshData::Tet& tet : mesh.tets) add(tet.label);
+  for (const OtherElements& others : mesh.other_elements) {
+    const ElementKind* kind = element_kind(others.vtk_type);
+    if (kind == nullptr || kind->dimension != 3) continue;
+    std::for_each(others.labels.begin(), others.labels.end(), add);
   }
   return labels.size() > 1 ? labels.size() : 0;
 }
@@ -213,7 +219,7 @@ std::vector<std::string> lost_in(const Room& room, const std::string& extension,
                          !are_finer_than_labels(mesh.triangles, mesh.triangle_parts) &&
                          !are_finer_than_labels(mesh.edges, mesh.edge_parts);
   notes.lost(room.edges, mesh.edges.size(), "edges are");
-  notes.lost(room.tet_labels, several_labels(mesh.tets), "labels of tets are");
+  notes.lost(room.tet_labels, several_volume_labels(mesh), "labels of tets are");
   notes.lost(room.low_labels, low_labels(mesh), "labels below 1 are");
   if (!room.absent_labels && !has_deck && lacks_labels(mesh)) {
     notes.sentences.push_back(fmt::format(

@@ -30,6 +30,24 @@ struct Row {
   int names = 0;  ///< of how many of the two labels
 };
 
+/// Two prisms and two quadrilaterals beside the rest.
+void add_others(MeshData& mesh, const Row& row) {
+  OtherElements prisms{13, 6, {}, {}, {}, {}, {}};
+  OtherElements quads{9, 4, {}, {}, {}, {}, {}};
+  for (std::uint32_t k = 0; k < 2; ++k) {
+    const auto first = static_cast<std::uint32_t>(mesh.points.size());
+    for (const double z : {9., 10.}) {
+      for (const auto& [x, y] : {std::pair(0., 0.), std::pair(1., 0.), std::pair(0., 1.)})
+        mesh.points.push_back({x, y, z + 2 * k});
+    }
+    for (std::uint32_t v = 0; v < 6; ++v) prisms.vertices.push_back(first + v);
+    for (const std::uint32_t v : {0, 1, 4, 3}) quads.vertices.push_back(first + v);
+    prisms.labels.push_back(row.tets[k]);
+    quads.labels.push_back(row.triangles[k]);
+  }
+  mesh.other_elements = {prisms, quads};
+}
+
 /// A cube with faces of tets and triangles that no tet has, and edges of both kinds.
 MeshData labelled_cube(const Row& row) {
   MeshData mesh = contract::kuhn_cube(2, 0, 1);
@@ -46,6 +64,7 @@ MeshData labelled_cube(const Row& row) {
     mesh.triangles.push_back({{first, first + 1, first + 2}, row.triangles[k % 2]});
     mesh.edges.push_back({{first, first + 1}, row.edges[k % 2]});
   }
+  add_others(mesh, row);
   const std::array<Labels, 3> all = {row.edges, row.triangles, row.tets};
   for (int dimension = 1; dimension <= 3; ++dimension) {
     for (std::size_t k = 0; k < static_cast<std::size_t>(row.names); ++k) {
@@ -54,6 +73,25 @@ MeshData labelled_cube(const Row& row) {
     }
   }
   return mesh;
+}
+
+/// As far as their label goes.
+struct Other {
+  std::vector<std::uint32_t> vertices;
+  Label label;
+};
+std::vector<Other> others_of(const MeshData& mesh, int vtk_type) {
+  std::vector<Other> found;
+  for (const OtherElements& others : mesh.other_elements) {
+    if (others.vtk_type != vtk_type) continue;
+    for (std::size_t i = 0; i < others.labels.size(); ++i) {
+      const auto begin =
+          others.vertices.begin() + static_cast<std::ptrdiff_t>(i * others.vertex_count);
+      found.push_back(
+          {{begin, begin + static_cast<std::ptrdiff_t>(others.vertex_count)}, others.labels[i]});
+    }
+  }
+  return found;
 }
 
 struct Named {
@@ -85,11 +123,13 @@ std::map<std::string, Named> labels_of(const MeshData& mesh, int dimension,
 void check_labels(const MeshData& before, const MeshData& after,
                   const std::vector<std::string>& notes) {
   const auto check = [&](const std::string& what, const auto& labels, const auto& again) {
+    const bool is_volume = what.ends_with("13");
     for (const std::string& note : notes) {
       if (note.find(" " + what + " are") != std::string::npos) return;
       if (note.find(" " + what + ", and groups of them, are") != std::string::npos) return;
       for (const std::string& told :
-           {"labels of " + what, std::string("labels change"), std::string("without a label")}) {
+           {std::string("labels change"), std::string("without a label"),
+            std::string(is_volume ? "labels of tets" : "labels of " + what)}) {
         if (note.find(told) != std::string::npos) return;
       }
     }
@@ -120,6 +160,10 @@ void check_labels(const MeshData& before, const MeshData& after,
   check("tets", labels_of(before, 3, before.tets), labels_of(after, 3, after.tets));
   check("triangles", labels_of(before, 2, before.triangles), labels_of(after, 2, after.triangles));
   check("edges", labels_of(before, 1, before.edges), labels_of(after, 1, after.edges));
+  check("elements of VTK's type 13", labels_of(before, 3, others_of(before, 13)),
+        labels_of(after, 3, others_of(after, 13)));
+  check("elements of VTK's type 9", labels_of(before, 2, others_of(before, 9)),
+        labels_of(after, 2, others_of(after, 9)));
 }
 
 constexpr std::array<Row, 13> kRows = {{
