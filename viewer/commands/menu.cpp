@@ -153,7 +153,7 @@ bool begins_group(const Command& command) {
 std::optional<bool> is_on(const Command& command, const Document& document) {
   const ViewSettings& view = document.view;
   const SceneSettings& scene = view.scene;
-  const std::array<std::pair<std::string_view, bool>, 24> states = {
+  const std::array<std::pair<std::string_view, bool>, 25> states = {
       {{"edges", view.edges},
        {"bad", scene.bad},
        {"bad_beyond_cuts", scene.bad_beyond_cuts},
