@@ -80,7 +80,7 @@ uniform vec3 tint;
 out vec4 colour;
 void main() {
   float slant = 1.0 - abs(normalize(face_normal).z);
-  colour = vec4(tint, 0.06 + 0.30 * slant * slant);
+  colour = vec4(tint, 0.06 + 0.22 * slant * slant);
 }
 )glsl";
 

@@ -144,6 +144,19 @@ void show_nearness(const LedgerRow& all) {
                   grouped(near), kNearness[1], grouped(all.nearness.back()), kNothingCompared));
 }
 
+constexpr const char* kLacking = "quality lacking";
+
+/// Of its heading and of both ends of the list: what compared nothing comes last.
+float width_of_lacking(const TraceFile& file, const std::vector<std::uint32_t>& found) {
+  float width = ImGui::CalcTextSize(kLacking).x;
+  if (found.empty()) return width;
+  for (const std::uint32_t number : {found.front(), found.back()}) {
+    const std::string text = file.calls()[number].missing_in_words();
+    width = std::max(width, ImGui::CalcTextSize(text.c_str()).x);
+  }
+  return width;
+}
+
 void show_found_row(Session& session, std::uint32_t number) {
   const Debugger& debugger = *session.document.debugger();
   const Call& call = debugger.file().calls()[number];
@@ -200,10 +213,13 @@ void draw_found_panel(Session& session) {
                            to_text(found.condition), grouped(found.calls.size())));
   constexpr ImGuiTableFlags kLooks = ImGuiTableFlags_RowBg | ImGuiTableFlags_ScrollY;
   constexpr float kRows = 8;
-  if (ImGui::BeginTable("##found", 2, kLooks, {0, kRows * ImGui::GetTextLineHeightWithSpacing()})) {
+  const float lacking = width_of_lacking(debugger.file(), found.calls);
+  const std::string table = fmt::format("##found{:.0f}", lacking);  // a table keeps its widths
+  if (ImGui::BeginTable(table.c_str(), 2, kLooks,
+                        {0, kRows * ImGui::GetTextLineHeightWithSpacing()})) {
     ImGui::TableSetupScrollFreeze(0, 1);
     ImGui::TableSetupColumn("call", ImGuiTableColumnFlags_WidthStretch);
-    number_column("quality lacking", "0.0000");  // of the worst tet, or others were the reason
+    ImGui::TableSetupColumn(kLacking, ImGuiTableColumnFlags_WidthFixed, lacking);
     headers_row(1);
     ImGuiListClipper clipper;
     clipper.Begin(static_cast<int>(found.calls.size()));
