@@ -106,3 +106,13 @@ class Browser:
         self.driver.terminate()
         self.driver.wait()
         self.folder.cleanup()
+
+
+def window(width: int, height: int, dark: bool = False) -> Browser:
+    """A browser whose page has exactly this size, and in which nothing moves by itself."""
+    opened = Browser(width, height, dark)
+    if width >= 500:
+        opened.command("Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=1, mobile=False)
+    looks = [{"name": "prefers-reduced-motion", "value": "reduce"}, {"name": "prefers-color-scheme", "value": "dark" if dark else "light"}]
+    opened.command("Emulation.setEmulatedMedia", features=looks)
+    return opened

@@ -17,6 +17,7 @@ from pathlib import Path
 SOURCE, TETMEND, WORK = (Path(argument).resolve() for argument in sys.argv[1:4])
 sys.path.insert(0, str(SOURCE / "tests" / "docs"))
 import browser  # noqa: E402
+from browser import window  # noqa: E402
 
 SKIPPED = 77
 LECTURES = SOURCE / "docs" / "lectures"
@@ -55,6 +56,13 @@ for (const spot of document.querySelectorAll("#ring .pick")) {  // its line, too
   if (far > 1.0001) bad.push(`ring: a corner to press of ${far}`);
 }
 const fingers = [...document.querySelectorAll("#code button:not(:disabled)")].filter(isSeen).map((e) => e.getBoundingClientRect().height);
+document.querySelectorAll("#ring .pick").forEach((spot, i) => {
+  for (const kind of ["corner", "place"]) {
+    const text = document.querySelectorAll(`#ring text[data-kind=${kind}]`)[i].getBBox();
+    const far = Math.max(...[text.x, text.x + text.width].map((x) => Math.abs(x - spot.cx.baseVal.value)));
+    if (far > spot.r.baseVal.value) bad.push(`ring: a number sticks out of its corner to press, ${far}`);
+  }
+});
 const shown = [];
 for (const [name, selector] of Object.entries(panels)) {
   const card = document.querySelector(selector);
@@ -91,15 +99,6 @@ return seen;
 
 def recording(page: Path) -> dict:
     return json.loads(re.search(r'id="recording">(.*?)</script>', page.read_text(), re.S).group(1))
-
-
-def window(width: int, height: int, dark: bool = False) -> browser.Browser:
-    opened = browser.Browser(width, height, dark)
-    if width >= 500:
-        opened.command("Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=1, mobile=False)
-    looks = [{"name": "prefers-reduced-motion", "value": "reduce"}, {"name": "prefers-color-scheme", "value": "dark" if dark else "light"}]
-    opened.command("Emulation.setEmulatedMedia", features=looks)
-    return opened
 
 
 class Stage(unittest.TestCase):

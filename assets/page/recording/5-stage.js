@@ -144,6 +144,17 @@ function askForLine(n, ask) {
   });
 }
 
+/** A number of four digits, with p_i below it, within the circle that is pressed. */
+function fitIntoSpots(svg, shell) {
+  const fit = (kind, size, down) => svg.querySelectorAll(`text[data-kind=${kind}]`).forEach((text, i) => {
+    text.setAttribute("y", ringPlace(shell, i, 0.9)[1] + down);
+    text.setAttribute("font-size", Math.min(size, 0.2 / text.textContent.length));
+    text.setAttribute("stroke", "none");
+  });
+  fit("corner", 0.076, -0.024);
+  fit("place", 0.05, 0.04);
+}
+
 let firstCorner = null;  // of the chord that is being picked
 
 /** Corners of the ring become buttons; two of them make a chord. */
@@ -186,6 +197,7 @@ function askForChord(n, ask, shell) {
     for (const circle of [spot, around]) circle.addEventListener("click", () => press(vertex));
     svg.querySelector("text[data-kind=corner]").before(spot, around);
   });
+  fitIntoSpots(svg, shell);
 }
 
 function askInPanels(n, call, position) {
