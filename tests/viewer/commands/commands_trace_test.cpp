@@ -208,32 +208,6 @@ TEST_CASE(
   CHECK(s.document.view.camera == before);
 }
 
-TEST_CASE("the outline around isolated calls is that of the mesh at each place of a trace") {
-  const test::TracedBall trace;
-  TraceSession s(trace.path());
-  const auto places = [](const Scene& scene) {
-    std::vector<std::array<float, 3>> list;
-    for (const SurfaceVertex& v : scene.surface)
-      list.push_back({v.position.x, v.position.y, v.position.z});
-    std::sort(list.begin(), list.end());
-    return list;
-  };
-  s.run("next_accepted");
-  REQUIRE(s.document.outline() != nullptr);
-  REQUIRE(s.document.is_isolated());
-  for (int i = 0; i < 20; ++i) {
-    s.run("next_accepted");
-    s.run("step_out");
-    s.run("next_refused");
-    if (s.document.outline() == nullptr) continue;
-    SceneSettings plain;
-    plain.bad = false;
-    const auto truth =
-        build_scene({s.document.mesh(), plain, {}, {}, {}, std::nullopt, s.document.ball()});
-    CHECK(places(*s.document.outline()) == places(truth));
-  }
-}
-
 TEST_CASE("before its first call a lesson has the numbers of its vertices in the picture") {
   TestSession s(test::one_tet());
   s.document.open(TETMEND_SOURCE_DIR "/assets/lessons/2-two-shells.json");
