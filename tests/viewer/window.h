@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdlib>
+#include <filesystem>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -84,14 +85,21 @@ inline void wait_for(const std::filesystem::path& file) {
   REQUIRE(std::filesystem::exists(file));
 }
 
-/// The picture of the whole window: key P writes it into the current folder.
+/// The picture of the whole window: key P writes it into the current folder. On a busy machine a key
+/// that was typed again makes a second one, whose number the window says: with these gone, too, it
+/// does not go up with every picture.
 inline viewer::Image take_picture(const std::filesystem::path& folder) {
   const std::filesystem::path file = folder / "tetmend-view.png";
-  std::filesystem::remove(file);
+  std::vector<std::filesystem::path> old;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    const std::string name = entry.path().filename().string();
+    if (name.starts_with("tetmend-view") && name.ends_with(".png")) old.push_back(entry.path());
+  }
+  for (const auto& each : old) std::filesystem::remove(each);
   // While a file opens, keys are those of its bar.
-  for (int i = 0; i < 30 && !std::filesystem::exists(file); ++i) {
+  for (int looks = 40; looks <= 1280 && !std::filesystem::exists(file); looks *= 2) {
     type("key p");
-    for (int k = 0; k < 40 && !std::filesystem::exists(file); ++k) {
+    for (int k = 0; k < looks && !std::filesystem::exists(file); ++k) {
       std::this_thread::sleep_for(std::chrono::milliseconds(50));
     }
   }
