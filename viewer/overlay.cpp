@@ -70,10 +70,26 @@ class OverlayDrawer {
     }
     places.resize(std::min(places.size(), kMost));
     for (const Place& at : places) dots_.push_back(box_around(at, 0.3 * look_.text_size));
+    keep_edge_clear();
     for (std::size_t i = 0; i < all.size(); ++i) {
       name_at(all[i], i < kMost ? std::optional(middle) : std::nullopt);
     }
   }
+  /// Names lie on the supporting edge only where there is no other place.
+  void keep_edge_clear() {
+    std::array<std::optional<Place>, 2> ends;
+    for (const NamedVertex& name : document_.names()) {
+      if (name.role == "a") ends[0] = pixel_of(name.vertex);
+      if (name.role == "b") ends[1] = pixel_of(name.vertex);
+    }
+    if (!ends[0] || !ends[1]) return;
+    for (const double t : {0.3, 0.5, 0.7}) {
+      const Place at = {ends[0]->x + t * (ends[1]->x - ends[0]->x),
+                        ends[0]->y + t * (ends[1]->y - ends[0]->y)};
+      dots_.push_back(box_around(at, 0.15 * look_.text_size));
+    }
+  }
+
   /// Numbers that would cover others are left out.
   void numbers_of_seen() {
     for (const VertexHandle v : seen_vertices(document_, kMostNumbers)) {

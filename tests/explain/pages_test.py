@@ -226,7 +226,7 @@ class Pages(unittest.TestCase):
                 f"seek({fact['position']})\nfor _ = 1, {len(fact['cells'])} do step_into() print(state().trace.position, state().trace.filling.text) end\n" for fact in facts))
             done = run(VIEWER, "--script", script, LESSONS / f"{name}.trace")
             self.assertEqual(done.returncode, 0, done.stderr)
-            self.assertEqual(done.stdout.splitlines(), [f"{position}\t{text}" for position, text in steps], name)
+            self.assertEqual(done.stdout.splitlines(), [f"{position} {text}" for position, text in steps], name)
             filled += len(steps)
         self.assertGreater(filled, 100)
 

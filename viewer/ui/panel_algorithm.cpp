@@ -47,7 +47,7 @@ float lines_below(bool is_whole) {
 /// Makes the text of the window so small that no line has breaks, if that is not much; `is_whole`: so
 /// small that all is seen.
 void fit_text(const Pseudocode& code, bool is_whole) {
-  constexpr float kLeast = 0.6F, kLeastUnbroken = 0.8F, kStep = 0.05F;
+  constexpr float kLeast = 0.6F, kLeastUnbroken = 0.72F, kStep = 0.05F;
   constexpr float kTitle = 1;
   const auto fits = [&](float share, bool has_height, bool is_unbroken) {
     ImGui::SetWindowFontScale(share);
