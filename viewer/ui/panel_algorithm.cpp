@@ -47,12 +47,13 @@ float lines_below(bool is_whole) {
 /// Makes the text of the window so small that no line has breaks, if that is not much; `is_whole`: so
 /// small that all is seen.
 void fit_text(const Pseudocode& code, bool is_whole) {
-  constexpr float kLeast = 0.6F, kLeastUnbroken = 0.72F, kStep = 0.05F;
+  constexpr float kLeast = 0.6F, kLeastUnbroken = 0.66F, kStep = 0.05F;
   constexpr float kTitle = 1;
   const auto fits = [&](float share, bool has_height, bool is_unbroken) {
     ImGui::SetWindowFontScale(share);
     const ImVec2 room = ImGui::GetContentRegionAvail();
-    const auto lines = wrap_code(code, room.x);
+    const float bar = is_whole ? 0 : ImGui::GetStyle().ScrollbarSize;
+    const auto lines = wrap_code(code, room.x - bar);
     const bool is_broken = std::any_of(lines.begin(), lines.end(),
                                        [](const CodeLine& line) { return line.rows() > 1; });
     if (is_unbroken && is_broken) return false;
