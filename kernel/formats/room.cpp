@@ -176,6 +176,17 @@ std::size_t of_first_order(const MeshData& mesh) {
   return static_cast<std::size_t>(count(mesh.triangles) + count(mesh.edges));
 }
 
+/// What another format cannot take of them; the rest means nothing there.
+std::size_t deck_pieces_to_miss(const MeshData& mesh) {
+  if (mesh.variant == kMed) return med_remarks_to_miss(mesh);
+  if (mesh.variant == kExodus) return exodus_pieces_to_miss(mesh);
+  if (mesh.variant == kCgns) return cgns_pieces_to_miss(mesh);
+  if (mesh.variant == kNastran) return nastran_pieces_to_miss(mesh);
+  if (mesh.variant == kXdmf) return 0;
+  if (mesh.variant == kUnv) return unv_pieces_to_miss(mesh);
+  return mesh.deck.size();
+}
+
 }  // namespace
 
 bool is_word(std::string_view name) {
@@ -236,14 +247,7 @@ std::vector<std::string> lost_in(const Room& room, const std::string& extension,
   }
   notes.lost(room.required_vertices || has_deck, mesh.required_vertices.size(),
              "required vertices are");
-  notes.lost(has_deck || has_only_roles(mesh),
-             mesh.variant == kMed       ? med_remarks_to_miss(mesh)
-             : mesh.variant == kExodus  ? exodus_pieces_to_miss(mesh)
-             : mesh.variant == kCgns    ? cgns_pieces_to_miss(mesh)
-             : mesh.variant == kNastran ? nastran_pieces_to_miss(mesh)
-             : mesh.variant == kXdmf    ? 0
-             : mesh.variant == kUnv     ? unv_pieces_to_miss(mesh)
-                                        : mesh.deck.size(),
+  notes.lost(has_deck || has_only_roles(mesh), deck_pieces_to_miss(mesh),
              "pieces of a deck, all that is no mesh, are");
   notes.lost(has_deck || mesh.variant != kExodus, exodus_numbers_to_miss(mesh),
              "numbers of blocks and sets that others have, too, are");

@@ -100,8 +100,8 @@ struct Named {
 };
 /// Of each element by the places of its corners.
 template <class Element>
-std::map<std::string, Named> labels_of(const MeshData& mesh, int dimension,
-                                       const std::vector<Element>& elements) {
+std::map<std::string, Named> labels_by_name(const MeshData& mesh, int dimension,
+                                            const std::vector<Element>& elements) {
   const formats::LabelNames names(mesh);
   const auto named = names.named(dimension);
   std::map<std::string, Named> labels;
@@ -157,13 +157,14 @@ void check_labels(const MeshData& before, const MeshData& after,
     INFO(what);
     CHECK(wrong == "");
   };
-  check("tets", labels_of(before, 3, before.tets), labels_of(after, 3, after.tets));
-  check("triangles", labels_of(before, 2, before.triangles), labels_of(after, 2, after.triangles));
-  check("edges", labels_of(before, 1, before.edges), labels_of(after, 1, after.edges));
-  check("elements of VTK's type 13", labels_of(before, 3, others_of(before, 13)),
-        labels_of(after, 3, others_of(after, 13)));
-  check("elements of VTK's type 9", labels_of(before, 2, others_of(before, 9)),
-        labels_of(after, 2, others_of(after, 9)));
+  check("tets", labels_by_name(before, 3, before.tets), labels_by_name(after, 3, after.tets));
+  check("triangles", labels_by_name(before, 2, before.triangles),
+        labels_by_name(after, 2, after.triangles));
+  check("edges", labels_by_name(before, 1, before.edges), labels_by_name(after, 1, after.edges));
+  check("elements of VTK's type 13", labels_by_name(before, 3, others_of(before, 13)),
+        labels_by_name(after, 3, others_of(after, 13)));
+  check("elements of VTK's type 9", labels_by_name(before, 2, others_of(before, 9)),
+        labels_by_name(after, 2, others_of(after, 9)));
 }
 
 constexpr std::array<Row, 13> kRows = {{
