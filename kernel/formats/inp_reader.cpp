@@ -420,17 +420,18 @@ class InpReader {
 
   /// A label may have several sets, and a surface: one group.
   void add_group(int dimension, Label number, const std::string& name, std::vector<Label> parts) {
-    const auto known =
-        std::find_if(data_.groups.begin(), data_.groups.end(), [&](const Group& group) {
-          return group.dimension == dimension && group.number == number && group.name.empty();
-        });
-    if (!name.empty() || known == data_.groups.end()) {
-      data_.groups.push_back({dimension, number, name, std::move(parts), {}});
-      return;
+    if (name.empty()) {
+      const auto [known, is_new] =
+          nameless_groups_.emplace(std::pair(dimension, number), data_.groups.size());
+      if (!is_new) {
+        std::vector<Label>& all = data_.groups[known->second].parts;
+        all.insert(all.end(), parts.begin(), parts.end());
+        std::sort(all.begin(), all.end());
+        all.erase(std::unique(all.begin(), all.end()), all.end());
+        return;
+      }
     }
-    known->parts.insert(known->parts.end(), parts.begin(), parts.end());
-    std::sort(known->parts.begin(), known->parts.end());
-    known->parts.erase(std::unique(known->parts.begin(), known->parts.end()), known->parts.end());
+    data_.groups.push_back({dimension, number, name, std::move(parts), {}});
   }
 
   void add_point_group(InpSet& set, const std::string& name, bool is_label) {
@@ -450,6 +451,7 @@ class InpReader {
   InpSets sets_;
   InpFaces faces_;
   MeshData data_;
+  std::map<std::pair<int, Label>, std::size_t> nameless_groups_;  // by dimension and number
   mutable std::set<std::string> rest_of_names_;
   std::vector<InpHome> homes_;
   std::vector<std::uint32_t> home_of_block_;
