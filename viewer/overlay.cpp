@@ -117,25 +117,30 @@ class OverlayDrawer {
   }
 
   /// At the lower left, or in the corner where it lies on the fewest vertices of the call; smaller
-  /// in a small picture.
-  void legend() {
-    const auto& entries = document_.legend();
-    if (entries.empty()) return;
-    const double full = look_.text_size;
-    const auto count = static_cast<double>(entries.size());
+  /// in a small picture. Names keep away from it.
+  void reserve_legend() {
     double widest = 0;
-    for (const LegendEntry& entry : entries) {
-      widest = std::max(widest, look_.text_width(entry.text, full));
+    for (const LegendEntry& entry : document_.legend()) {
+      widest = std::max(widest, look_.text_width(entry.text, look_.text_size));
     }
+    const double full = look_.text_size;
+    const auto count = static_cast<double>(document_.legend().size());
     const double shrunk = legend_scale(widest + kBeside * full, (kLegendLine * count + 0.5) * full);
     const double text = shrunk * full;
-    const double line = kLegendLine * text;
     const double width = shrunk * widest + kBeside * text;
-    const figure::Box box = emptiest_corner(width, line * count + 0.5 * text, 0.3 * text);
-    drawing_.rectangle({box.left, box.top}, width, box.bottom - box.top,
+    const double height = (kLegendLine * count + 0.5) * text;
+    legend_ = {emptiest_corner(width, height, 0.3 * text), text};
+    taken_.push_back(legend_.box);
+  }
+
+  /// Precondition: it has its place.
+  void legend() {
+    const auto& [box, text] = legend_;
+    const double line = kLegendLine * text;
+    drawing_.rectangle({box.left, box.top}, box.right - box.left, box.bottom - box.top,
                        figure::faint(ground_, 0.8));
     double y = box.top + 0.3 * text;
-    for (const LegendEntry& entry : entries) {
+    for (const LegendEntry& entry : document_.legend()) {
       const double left = box.left + 0.3 * text;
       drawing_.rectangle({left, y + 0.2 * text}, 1.4 * text, 0.8 * text, entry.colour);
       words({left + 1.8 * text, y + line / 2}, entry.text, Anchor::start, text);
@@ -191,7 +196,7 @@ class OverlayDrawer {
     const ViewSettings& view = document_.view;
     const double margin = kMargin * scale_;
     const double line = kLine * scale_;
-    if (look_.has_triad) fixed_.push_back(box_around(triad_middle(), kLetters * kAxis * scale_));
+    if (has_triad()) fixed_.push_back(box_around(triad_middle(), kLetters * kAxis * scale_));
     if (view.colour_bar) {
       const double half = 0.21 * (bottom_ - top_) + 2 * line;
       const double middle = (top_ + bottom_) / 2;
@@ -205,6 +210,12 @@ class OverlayDrawer {
     taken_ = fixed_;
   }
 
+  /// In a small picture legend and names want the room.
+  bool has_triad() const {
+    constexpr double kLeast = 8 * kAxis;
+    return look_.has_triad && std::min(right_ - left_, bottom_ - top_) >= kLeast * scale_;
+  }
+
   /// In a lower corner that nothing else has.
   Place triad_middle() const {
     const double length = kAxis * scale_;
@@ -216,6 +227,7 @@ class OverlayDrawer {
 
   /// Directions of the axes; those that point away come first, so that the others lie over them.
   void triad() {
+    if (!has_triad()) return;
     const Camera& camera = document_.view.camera;
     const double length = kAxis * scale_;
     const Place middle = triad_middle();
@@ -587,8 +599,12 @@ class OverlayDrawer {
   Colour ink_, ground_;
   Drawing drawing_;
   std::vector<figure::Box> fixed_;  // by axes and bars
-  std::vector<figure::Box> taken_;  // by these and by numbers
-  std::vector<figure::Box> dots_;   // vertices that have a name
+  std::vector<figure::Box> taken_;  // by these, the legend and numbers
+  struct Legend {
+    figure::Box box;
+    double text;
+  } legend_{};
+  std::vector<figure::Box> dots_;  // vertices that have a name
 };
 
 }  // namespace
@@ -662,16 +678,19 @@ Drawing draw_overlay(Document& document, const OverlayLook& look) {
   OverlayDrawer drawer(document, look);
   if (!document.has_mesh()) return drawer.take();
   const ViewSettings& view = document.view;
+  const bool has_calls = document.debugger() != nullptr || document.live.is_active();
+  const bool has_legend =
+      view.legend && document.show_panels && has_calls && !document.legend().empty();
   drawer.reserve();
+  if (has_legend) drawer.reserve_legend();
   drawer.pointed();
   if (view.numbers) drawer.names();
   if (view.all_numbers) drawer.numbers_of_seen();
-  const bool has_calls = document.debugger() != nullptr || document.live.is_active();
-  if (view.legend && document.show_panels && has_calls) drawer.legend();
+  if (has_legend) drawer.legend();
   if (!view.title.empty()) drawer.title();
   if (view.colour_bar) drawer.colour_bar();
   if (view.scale_bar) drawer.scale_bar();
-  if (look.has_triad) drawer.triad();
+  drawer.triad();
   return drawer.take();
 }
 

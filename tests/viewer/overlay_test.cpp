@@ -89,6 +89,19 @@ TEST_CASE("the words of a short scale bar begin in the picture") {
   CHECK(box_of(std::get<figure::Text>(*found)).left >= 0);
 }
 
+TEST_CASE("a small picture has no axes: legend and names have the room") {
+  TestSession s(test::kuhn_cube(2, 0, 1));
+  const auto has_axes = [&](const Canvas& size) {
+    s.document.resize(size);
+    OverlayLook look;
+    look.scale = 1.5;
+    look.has_triad = true;
+    return !draw_overlay(s.document, look).shapes.empty();
+  };
+  CHECK(has_axes({512, 470}));
+  CHECK_FALSE(has_axes({320, 234}));
+}
+
 TEST_CASE("the axes stand at the lower right, and opposite to a colour bar over the scale bar") {
   TestSession s(test::kuhn_cube(2, 0, 1));
   const auto place_of_x = [&] {
@@ -333,17 +346,24 @@ TEST_CASE("a name lies on no other vertex that has one, where there is room") {
   }
 }
 
-TEST_CASE("the legend keeps clear of the axes where a colour bar has taken their corner") {
+namespace {
+
+/// Whether the axes' letters are clear of the legend at a call of a lesson.
+void check_legend_beside_axes(const Canvas& size, bool has_bar, double scale) {
   Document document;
   document.open(TETMEND_SOURCE_DIR "/assets/lessons/2-two-shells.trace");
   document.show_panels = true;
-  document.resize({700, 560});
+  document.resize(size);
   document.debugger()->seek(8);
   document.show_trace();
   document.scene();
-  document.view.colour_bar = true;
+  document.view.colour_bar = has_bar;
   document.view.scene.colour = "quality";
-  const figure::Drawing drawing = draw_overlay(document, {.has_triad = true});
+  OverlayLook look;
+  look.scale = scale;
+  look.text_size *= scale;
+  look.has_triad = true;
+  const figure::Drawing drawing = draw_overlay(document, look);
   REQUIRE(!document.legend().empty());
   const auto place_of = [&](const std::string& word) {
     for (const figure::Shape& shape : drawing.shapes) {
@@ -360,4 +380,41 @@ TEST_CASE("the legend keeps clear of the axes where a colour bar has taken their
       CHECK_FALSE(line.overlaps(place_of(axis)));
     }
   }
+}
+
+}  // namespace
+
+TEST_CASE("the legend keeps clear of the axes where a colour bar has taken their corner") {
+  check_legend_beside_axes({700, 560}, true, 1);
+}
+
+TEST_CASE("names keep clear of the legend in a small picture of large text") {
+  Document document;
+  document.open(TETMEND_SOURCE_DIR "/assets/lessons/4-tables.trace");
+  document.show_panels = true;
+  document.resize({320, 234});
+  document.debugger()->seek(2);
+  document.show_trace();
+  document.scene();
+  OverlayLook look;
+  look.scale = 1.5;
+  look.text_size *= look.scale;
+  std::vector<figure::Box> legend, names;
+  for (const figure::Shape& shape : draw_overlay(document, look).shapes) {
+    const auto* text = std::get_if<figure::Text>(&shape);
+    if (text == nullptr) continue;
+    const bool is_legend =
+        std::any_of(document.legend().begin(), document.legend().end(),
+                    [&](const LegendEntry& entry) { return entry.text == text->text; });
+    (is_legend ? legend : names).push_back(box_of(*text));
+  }
+  REQUIRE(!legend.empty());
+  REQUIRE(names.size() > 6);
+  for (const figure::Box& line : legend) {
+    for (const figure::Box& name : names) CHECK_FALSE(line.overlaps(name));
+  }
+}
+
+TEST_CASE("the legend keeps clear of the axes in a small picture of large text") {
+  check_legend_beside_axes({400, 370}, false, 1.5);
 }

@@ -518,6 +518,7 @@ void Interface::build(Session& session) {
     show_toast(document, layout.canvas, static_cast<float>(document.window.width));
   });
   if (!is_whole) ImGui::ErrorCheckEndFrameRecover(nullptr);
+  if (layout.is_teaching) large_->Scale = layout.text / kTeachingText;
   ImGui::PushFont(font);
   const bool is_done = guarded(document, [&] {
     if (!ImGui::GetIO().WantCaptureMouse) {
@@ -531,6 +532,7 @@ void Interface::build(Session& session) {
   });
   if (!is_done) ImGui::ErrorCheckEndFrameRecover(nullptr);
   ImGui::PopFont();
+  large_->Scale = 1;  // the start page has it, too
   document.hovered = document.hovering;
   ImGui::Render();
   session.is_drawing = false;

@@ -25,6 +25,7 @@ constexpr float kWideTeachingWidth = 0.6F;  // where the picture is not spoken o
 constexpr float kTeachingHeight = 190;      // without a text
 constexpr float kBarHeight = 58;            // buttons for fingers, and a margin
 constexpr float kMostTextHeight = 0.45F;    // of the window
+// Of a window with the whole of kTeachingText.
 constexpr float kLeastTeachingWidth = 1100;
 constexpr float kLeastTeachingHeight = 680;
 
@@ -65,12 +66,20 @@ float height_of_text(const Debugger& debugger, bool is_step, float width, float 
   return std::min(most, (kLine * lines + 1) * size);
 }
 
+/// How much larger text is while teaching, for a window in which all has room. A lesson without its
+/// text and its buttons is none: there it is never smaller than the usual one.
+float teaching_text(const Document& document, float scale) {
+  const float fit = std::min(static_cast<float>(document.window.width) / kLeastTeachingWidth,
+                             static_cast<float>(document.window.height) / kLeastTeachingHeight);
+  const float text = kTeachingText * std::min(1.0F, fit / scale);
+  return document.debugger()->lesson() ? std::max(1.0F, text) : text;
+}
+
 /// At a step of a lesson the text stands below picture and column; elsewhere the column, for ring and
 /// algorithm, is as high as the window. The buttons are at the bottom, however long the text is.
 void lay_out_teaching(const Debugger& debugger, Layout& layout, float width, float top,
                       float bottom, float scale) {
   layout.is_teaching = true;
-  layout.text = kTeachingText;
   layout.focus = focus_of(debugger);
   const bool is_step = !layout.focus.empty();
   if (!is_step) layout.focus = {Focus::picture, Focus::ring, Focus::algorithm};
@@ -103,10 +112,14 @@ Layout lay_out(const Document& document, float scale) {
   layout.canvas = {0, top, width, bottom - top};
   if (!document.has_mesh()) return layout;  // the start screen
   const bool has_trace = document.debugger() != nullptr;
-  if (has_trace && document.teaching && width >= kLeastTeachingWidth * scale &&
-      height >= kLeastTeachingHeight * scale) {
-    lay_out_teaching(*document.debugger(), layout, width, top, bottom, scale);
-    return layout;
+  if (has_trace && document.teaching) {
+    layout.text = teaching_text(document, scale);
+    if (layout.text >= 1) {
+      const float smaller = layout.text / kTeachingText;
+      lay_out_teaching(*document.debugger(), layout, width, top, bottom, smaller * scale);
+      return layout;
+    }
+    layout.text = 1;
   }
   const bool is_narrow = has_trace && width < kLeastForTwo * scale;
   const float wanted = !has_trace ? kSideWidth : is_narrow ? kOnlySideWidth : kTraceSideWidth;

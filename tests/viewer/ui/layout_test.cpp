@@ -68,3 +68,50 @@ TEST_CASE("a step of a lesson shows what it speaks of beside its picture, with b
     }
   }
 }
+
+TEST_CASE("a lesson has its text and its buttons in small windows and at large scales, too") {
+  for (const char* name : {"1-core", "4-tables"}) {
+    CAPTURE(name);
+    TestSession s(test::one_tet());
+    s.document.open(fmt::format(TETMEND_SOURCE_DIR "/assets/lessons/{}.json", name));
+    const Lesson lesson = *s.document.debugger()->lesson();
+    struct Window {
+      int width, height;
+      float scale;
+    };
+    for (const Window& window : {Window{1280, 720, 1.5F}, Window{1280, 720, 2}, Window{800, 600, 1},
+                                 Window{800, 600, 1.5F}, Window{640, 480, 1}}) {
+      CAPTURE(window.width);
+      CAPTURE(window.scale);
+      s.document.window = {window.width, window.height};
+      for (const LessonStep& step : lesson.steps) {
+        s.run("seek", {step.at});
+        const ui::Layout layout = ui::lay_out(s.document, window.scale);
+        REQUIRE(layout.is_teaching);
+        CHECK(layout.text >= 1);
+        CHECK(layout.text < ui::kTeachingText);
+        constexpr float kFinger = 38;  // at scale 1
+        CHECK(layout.bar.height >= kFinger * window.scale);
+        CHECK(layout.strip.height > 2 * 16 * layout.text * window.scale);  // lines of text
+        CHECK(layout.strip.y + layout.strip.height == layout.bar.y);
+        CHECK(layout.bar.y + layout.bar.height == layout.status.y);
+        CHECK(layout.canvas.height > 0.3 * window.height);
+      }
+    }
+  }
+}
+
+TEST_CASE("without a lesson, teaching never makes text smaller than the usual one") {
+  TestSession s(test::one_tet());
+  const test::HandmadeTrace trace;
+  s.document.open(trace.path());
+  s.document.teaching = true;
+  s.document.window = {1280, 720};
+  const ui::Layout scaled = ui::lay_out(s.document, 1.5F);
+  CHECK(scaled.is_teaching);
+  CHECK(scaled.text >= 1);
+  s.document.window = {640, 480};
+  const ui::Layout usual = ui::lay_out(s.document, 1);
+  CHECK_FALSE(usual.is_teaching);
+  CHECK(usual.text == 1);
+}
