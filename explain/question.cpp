@@ -252,6 +252,47 @@ std::optional<Question> try_answer(const TraceFile& file, Replay& replay, std::u
   }
 }
 
+bool is_right(const Question& question, std::string_view words) {
+  std::string plain(words);
+  const bool is_chord = question.ask.kind == Ask::Kind::chord;
+  if (is_chord) std::replace(plain.begin(), plain.end(), '-', ' ');  // "2 - 7"
+  std::replace(plain.begin(), plain.end(), ',', is_chord ? ' ' : '.');
+  std::istringstream in(plain);
+  const auto need = [&](bool is_read, const char* expected) {
+    if (!is_read || !(in >> std::ws).eof()) {
+      throw Error(fmt::format("expected {}, not '{}'", expected, words));
+    }
+  };
+  switch (question.ask.kind) {
+    case Ask::Kind::line: {
+      unsigned line = 0;
+      need(static_cast<bool>(in >> line), "the number of a line");
+      return line == question.line;
+    }
+    case Ask::Kind::accepted: {
+      std::string word;
+      in >> word;
+      need(word == "accepted" || word == "refused", "accepted or refused");
+      return (word == "accepted") == question.accepted;
+    }
+    case Ask::Kind::chord: {
+      std::array<std::uint32_t, 2> ends{};
+      need(static_cast<bool>(in >> ends[0] >> ends[1]), "two vertices, as in 2 7");
+      const auto is_it = [&](const auto& chord) {
+        return std::is_permutation(chord.begin(), chord.end(), ends.begin());
+      };
+      return std::any_of(question.chords.begin(), question.chords.end(), is_it);
+    }
+    case Ask::Kind::number: {
+      double number = 0;
+      need(static_cast<bool>(in >> number), "a number");
+      constexpr double kRounding = 1e-9;
+      return std::abs(number - question.number) <= question.ask.within + kRounding;
+    }
+  }
+  return false;
+}
+
 nlohmann::ordered_json to_json(const Question& question) {
   const auto kind = static_cast<std::size_t>(question.ask.kind);
   nlohmann::ordered_json json = {{"kind", Ask::kKindNames[kind]}, {"text", question.ask.text}};

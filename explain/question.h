@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <nlohmann/json_fwd.hpp>
@@ -42,6 +43,11 @@ Question answer(const TraceFile& file, Replay& replay, std::uint64_t at, const A
 /// The same, but nothing instead of an error.
 std::optional<Question> try_answer(const TraceFile& file, Replay& replay, std::uint64_t at,
                                    const Ask& ask);
+
+/// Whether these words are its answer: "accepted" or "refused"; the number of a line, from 1; the two
+/// vertices of a chord; a number. Cost: few comparisons.
+/// @throws Error where they are none of these, with what is expected.
+bool is_right(const Question& question, std::string_view words);
 
 /// {"kind", "text", "answer", "why"}, and "within" of a number. Lines count from 1.
 nlohmann::ordered_json to_json(const Question& question);

@@ -4,6 +4,7 @@
 #include <set>
 
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "explain/call_study.h"
@@ -89,6 +90,37 @@ TEST_CASE("the numbers of a question are those of the trace") {
   CHECK(shells.number(2, "deepest level") == 1);
   CHECK(LessonTrace("5-reconnection").number(0, "bad tets") == 7);
   CHECK(LessonTrace("3-refusals").number(10, "triangulations") == 5);
+}
+
+TEST_CASE("an answer in words is right, is not, or is no answer to the question") {
+  LessonTrace core("1-core");
+  const Question accepted = core.ask(6, Ask::Kind::accepted);
+  CHECK(is_right(accepted, "accepted"));
+  CHECK_FALSE(is_right(accepted, " refused "));
+  CHECK_THROWS_WITH_AS(is_right(accepted, "perhaps"), "expected accepted or refused, not 'perhaps'",
+                       Error);
+  const Question chord = core.ask(6, Ask::Kind::chord);
+  REQUIRE(!chord.chords.empty());
+  const auto [from, to] = chord.chords.front();
+  CHECK(is_right(chord, fmt::format("{} {}", from, to)));
+  CHECK(is_right(chord, fmt::format("{} - {}", to, from)));
+  CHECK(is_right(chord, fmt::format("{},{}", to, from)));
+  CHECK_FALSE(is_right(chord, fmt::format("{} {}", from, from)));
+  for (const char* words : {"", "2", "a b", "2 7 1"}) {
+    CHECK_THROWS_AS(is_right(chord, words), Error);
+  }
+  LessonTrace shells("2-two-shells");
+  const Question line = shells.ask(2, Ask::Kind::line);
+  CHECK(is_right(line, "3"));
+  CHECK_FALSE(is_right(line, "4"));
+  CHECK_THROWS_AS(is_right(line, "3rd"), Error);
+  Question number = core.ask(6, Ask::Kind::number, "worst before");
+  number.ask.within = 0.001;
+  CHECK(is_right(number, fmt::format("{}", number.number + 0.0009)));
+  CHECK_FALSE(is_right(number, fmt::format("{}", number.number + 0.0011)));
+  number.number = 0.5;
+  CHECK(is_right(number, "0,5"));
+  CHECK_THROWS_AS(is_right(number, "half"), Error);
 }
 
 TEST_CASE("a number that the trace does not have is an error with the question and the reason") {

@@ -213,6 +213,16 @@ json to_lesson_step(Session& s, const json&) {
   return here;
 }
 
+/// "accepted", 3, "2 7"
+json answer(Session& s, const json& a) {
+  const Arguments arguments("answer", a);
+  const bool is_number = arguments.has(0) && a[0].is_number();
+  const LessonQuestion& asked =
+      need_trace(s.document).answer(is_number ? a[0].dump() : arguments.text(0));
+  s.document.message = {*asked.is_right ? "right" : "not so", false};
+  return {{"right", *asked.is_right}, {"why", asked.question.why}};
+}
+
 json play(Session& s, const json&) {
   Debugger& debugger = need_trace(s.document);
   debugger.playing = !debugger.playing && debugger.position() < debugger.end();
@@ -366,6 +376,11 @@ constexpr std::array kTraceCommands = {
             "To the next step of the lesson", &to_lesson_step<kForward>},
     Command{"last_lesson_step", "Shift+K", kTrace, "last_lesson_step()",
             "To the step of the lesson before", &to_lesson_step<kBack>},
+    Command{"answer", "", "", "answer(\"accepted\")",
+            "Answer the question of the lesson here: \"accepted\" or \"refused\", a line, a "
+            "number, or a "
+            "chord as \"2 7\"; the result has right and why",
+            &answer},
     Command{"isolate", "I", kTrace, "isolate()",
             "Show only the tets of the call at hand, or of the selection", &isolate},
     Command{"follow", "Shift+F", kTrace, "follow()",

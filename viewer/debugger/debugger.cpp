@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <fmt/format.h>
+
 #include "kernel/error.h"
 
 namespace tetmend::viewer {
@@ -13,6 +15,14 @@ Debugger::Debugger(TraceFile file, const TetMesh* start)
 
 Debugger::Debugger(const std::filesystem::path& file) : Debugger(TraceFile(file)) {
   lesson_ = lesson_of(file, file_.event_count());
+  if (!lesson_) return;
+  for (const LessonStep& step : lesson_->steps) {
+    std::optional<LessonQuestion>& asked_there = questions_.emplace_back();
+    if (!step.ask) continue;
+    if (auto question = explain::try_answer(file_, replay_, step.at, *step.ask)) {
+      asked_there = LessonQuestion{std::move(*question), {}};
+    }
+  }
 }
 
 Debugger::Debugger(const std::string& name, std::string_view bytes)
@@ -53,6 +63,37 @@ bool Debugger::step_in_tables(Step step, Direction direction) {
   if (cell_ == filling.cells.size() || (is_over && !diagonal)) return false;
   cell_ = is_over ? *diagonal : cell_ + 1;
   return true;
+}
+
+std::string LessonQuestion::text(bool is_answered) const {
+  if (!is_answered) return question.ask.text;
+  const char* verdict = is_right == true ? "Right." : "Not so.";
+  return fmt::format("{} {} {}", question.ask.text, verdict, question.why);
+}
+
+LessonQuestion* Debugger::open_question() {
+  for (std::size_t step = 0; step < questions_.size(); ++step) {
+    if (lesson_->steps[step].at != position()) continue;
+    if (questions_[step] && !questions_[step]->is_right) return &*questions_[step];
+  }
+  return nullptr;
+}
+
+const LessonQuestion& Debugger::answer(std::string_view words) {
+  LessonQuestion* open = open_question();
+  if (open == nullptr) throw Error("no question is open here");
+  open->is_right = explain::is_right(open->question, words);
+  return *open;
+}
+
+std::array<std::size_t, 2> Debugger::score() const {
+  std::array<std::size_t, 2> score{};
+  for (const auto& question : questions_) {
+    if (!question || !question->is_right) continue;
+    ++score[0];
+    score[1] += *question->is_right ? 1 : 0;
+  }
+  return score;
 }
 
 bool Debugger::fills_by_steps() const {

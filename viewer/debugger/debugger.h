@@ -2,6 +2,7 @@
 // A trace that is being looked at: the place in it, and all that leads from place to place.
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <map>
 #include <optional>
@@ -13,6 +14,7 @@
 #include "explain/event_text.h"
 #include "explain/figures/call_figure.h"
 #include "explain/lesson_guide.h"
+#include "explain/question.h"
 #include "explain/stepper.h"
 #include "explain/table_filling.h"
 #include "explain/timeline.h"
@@ -31,6 +33,15 @@ namespace tetmend::viewer {
 struct FoundCalls {
   Condition condition;
   std::vector<std::uint32_t> calls;  ///< see find_all()
+};
+
+/// A question of a lesson, and what was answered. The first answer counts.
+struct LessonQuestion {
+  explain::Question question;
+  std::string typed;                  ///< what the user is about to answer
+  std::optional<bool> is_right = {};  ///< of the answer; none yet
+  /// What is asked and, once it is answered, whether it is right, and why.
+  std::string text(bool is_answered) const;
 };
 
 /// Moves that lead nowhere leave the position as it is.
@@ -135,6 +146,17 @@ class Debugger {
   /// @throws Error if there is no such number. Cost: a history in each run
   void look_at_pair(std::size_t number);
   const std::optional<Lesson>& lesson() const { return lesson_; }
+  /// Of a step of the lesson; null where it asks nothing, or what the trace does not answer.
+  /// Precondition: there is a lesson with so many steps.
+  const LessonQuestion* question_of(std::size_t step) const {
+    return questions_[step] ? &*questions_[step] : nullptr;
+  }
+  /// The first question at this place that has no answer; null without one.
+  LessonQuestion* open_question();
+  /// Answers it. @throws Error where there is none, and as explain::is_right() does
+  const LessonQuestion& answer(std::string_view words);
+  /// How many questions have an answer, and how many of these a right one.
+  std::array<std::size_t, 2> score() const;
   /// The tree of the calls of the pass at hand, as far as it is unfolded. Valid until the next
   /// call.
   const std::vector<CallRow>& rows() {
@@ -167,7 +189,8 @@ class Debugger {
   std::optional<FoundCalls> found_;
   std::unique_ptr<OtherRun> other_;
   std::optional<Lesson> lesson_;
-  double unplayed_ = 0;  // share of an event
+  std::vector<std::optional<LessonQuestion>> questions_;  // of its steps
+  double unplayed_ = 0;                                   // share of an event
 };
 
 }  // namespace tetmend::viewer

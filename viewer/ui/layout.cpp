@@ -53,17 +53,23 @@ std::vector<Focus> focus_of(const Debugger& debugger) {
 /// Of the text and the question of a step; between steps there is what has happened.
 float height_of_text(const Debugger& debugger, bool is_step, float width, float most, float scale) {
   if (!debugger.lesson() || !is_step) return kTeachingHeight * scale;
-  constexpr float kLetter = 0.56F;  // of the size of the text, at most
-  constexpr float kLine = 1.2F;
+  constexpr float kLetter = 0.53F;  // of the size of the text, at most
+  constexpr float kParagraph = 0.25F;
+  constexpr float kMargins = 0.8F;
   const float size = 16 * kTeachingText * scale;
   const float letters = (width - 2 * size) / (kLetter * size);
-  float lines = 0;
-  for (const LessonStep& step : debugger.lesson()->steps) {  // all at one place are told
-    if (step.at != debugger.position()) continue;
-    lines += std::ceil(static_cast<float>(step.text.size()) / letters);
-    if (step.ask) lines += std::ceil(static_cast<float>(step.ask->text.size()) / letters);
+  float lines = kMargins;
+  const auto add = [&](const std::string& text) {
+    lines += std::ceil(static_cast<float>(text.size()) / letters) + kParagraph;
+  };
+  const Lesson& lesson = *debugger.lesson();
+  for (std::size_t n = 0; n < lesson.steps.size(); ++n) {  // all at one place are told
+    if (lesson.steps[n].at != debugger.position()) continue;
+    add(lesson.steps[n].text);
+    const LessonQuestion* question = debugger.question_of(n);
+    if (question != nullptr) add(question->text(question->is_right.has_value()));
   }
-  return std::min(most, (kLine * lines + 1) * size);
+  return std::min(most, lines * size);
 }
 
 /// How much larger text is while teaching, for a window in which all has room. A lesson without its

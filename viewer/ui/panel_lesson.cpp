@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
 // The text of a lesson beside its trace.
 #include <algorithm>
+#include <array>
+#include <string>
 
 #include <fmt/format.h>
 #include <imgui.h>
+#include <imgui_stdlib.h>
 
 #include "viewer/ui/panels.h"
 #include "viewer/ui/wrapped_text.h"
@@ -14,11 +17,13 @@ namespace {
 
 constexpr float kFinger = 32;  // pixels at the usual size of the text, at least
 
-/// Higher than those of panels: to be met by fingers, and from the back of a hall.
+/// Of what is to be met by fingers, and from the back of a hall.
+float finger_height() {
+  return std::max(1.8F, kFinger / 16) * ImGui::GetFontSize();
+}
+
 void lesson_buttons(Session& session) {
-  const float text = ImGui::GetFontSize();
-  const float height = std::max(1.8F * text, kFinger * ImGui::GetFontSize() / 16);
-  const ImVec2 size = {5.5F * text, height};
+  const ImVec2 size = {5.5F * ImGui::GetFontSize(), finger_height()};
   if (ImGui::Button("back", size)) run_from_window(find_command("last_lesson_step"), session);
   ImGui::SameLine();
   if (ImGui::Button("next", size)) run_from_window(find_command("next_lesson_step"), session);
@@ -26,7 +31,36 @@ void lesson_buttons(Session& session) {
 
 std::string place_in(const Lesson& lesson, const Debugger& debugger) {
   const auto step = step_at(lesson, debugger.position());
-  return fmt::format("step {} of {}", step ? *step + 1 : 0, lesson.steps.size());
+  const auto [answered, right] = debugger.score();
+  return fmt::format("step {} of {}{}", step ? *step + 1 : 0, lesson.steps.size(),
+                     answered == 0 ? "" : fmt::format(", {} of {} right", right, answered));
+}
+
+/// Buttons where there is a choice of two, else a line to type in. Nothing where none is asked.
+void ask_for_answer(Session& session) {
+  LessonQuestion* open = session.document.debugger()->open_question();
+  if (open == nullptr) return;
+  const auto give = [&](const std::string& words) {
+    run_from_window(find_command("answer"), session, {words});
+  };
+  const float text = ImGui::GetFontSize();
+  const float height = finger_height();
+  const float padding = (height - ImGui::GetTextLineHeight()) / 2;
+  ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {ImGui::GetStyle().FramePadding.x, padding});
+  if (open->question.ask.kind == Ask::Kind::accepted) {
+    if (ImGui::Button("accepted", {0, height})) give("accepted");
+    ImGui::SameLine();
+    if (ImGui::Button("refused", {0, height})) give("refused");
+  } else {
+    static constexpr std::array<const char*, 4> kHints = {"a line", "", "two corners", "a number"};
+    const auto kind = static_cast<std::size_t>(open->question.ask.kind);
+    ImGui::SetNextItemWidth(8 * text);
+    const bool is_entered = ImGui::InputTextWithHint("##answer", kHints[kind], &open->typed,
+                                                     ImGuiInputTextFlags_EnterReturnsTrue);
+    ImGui::SameLine();
+    if (ImGui::Button("check", {0, height}) || is_entered) give(open->typed);
+  }
+  ImGui::PopStyleVar();
 }
 
 }  // namespace
@@ -36,17 +70,20 @@ void draw_lesson_text(Session& session) {
   const Lesson& lesson = *debugger.lesson();
   const auto step = step_at(lesson, debugger.position());
   if (!step || lesson.steps[*step].at != debugger.position()) return draw_last_event(session);
-  for (const LessonStep& told : lesson.steps) {  // all that are at this position
-    if (told.at != lesson.steps[*step].at) continue;
-    wrapped_text(told.text);
-    if (told.ask) wrapped_text(told.ask->text);
+  for (std::size_t n = 0; n < lesson.steps.size(); ++n) {  // all that are at this position
+    if (lesson.steps[n].at != debugger.position()) continue;
+    wrapped_text(lesson.steps[n].text);
+    const LessonQuestion* question = debugger.question_of(n);
+    if (question != nullptr) wrapped_text(question->text(question->is_right.has_value()));
   }
 }
 
 void draw_lesson_bar(Session& session) {
-  const Debugger& debugger = *session.document.debugger();
+  Debugger& debugger = *session.document.debugger();
   const Lesson& lesson = *debugger.lesson();
   lesson_buttons(session);
+  if (debugger.open_question() != nullptr) ImGui::SameLine(0, 2 * ImGui::GetStyle().ItemSpacing.x);
+  ask_for_answer(session);
   const float right = ImGui::GetItemRectMax().x;
   const float middle = (ImGui::GetItemRectMin().y + ImGui::GetItemRectMax().y) / 2;
   const std::string text = fmt::format("{}: {}", place_in(lesson, debugger), lesson.title);
@@ -64,6 +101,7 @@ void draw_lesson_panel(Session& session) {
   ImGui::AlignTextToFramePadding();
   ImGui::TextDisabled("%s", place_in(lesson, debugger).c_str());
   draw_lesson_text(session);
+  ask_for_answer(session);
 }
 
 }  // namespace tetmend::viewer::ui

@@ -239,6 +239,36 @@ TEST_CASE("what a call makes is not shown before it has made it") {
   CHECK(seen == 5);
 }
 
+TEST_CASE("questions of a lesson are answered once, and the answers stay") {
+  TraceSession s(TETMEND_SOURCE_DIR "/assets/lessons/1-core.trace");
+  Debugger& debugger = *s.document.debugger();
+  CHECK_THROWS_WITH_AS(s.run("answer", {"accepted"}), doctest::Contains("no question is open here"),
+                       Error);
+  s.run("seek", {2});
+  CHECK_THROWS_WITH_AS(s.run("answer"), doctest::Contains("answer: argument 1 must be a text"),
+                       Error);
+  CHECK_THROWS_WITH_AS(s.run("answer", {7}), doctest::Contains("expected accepted or refused"),
+                       Error);
+  CHECK(debugger.score() == std::array<std::size_t, 2>{0, 0});
+  const auto told = s.run("answer", {"refused"});
+  CHECK(told["right"] == true);
+  CHECK(told["why"].get<std::string>().starts_with("It ends: no improvement."));
+  CHECK_THROWS_AS(s.run("answer", {"accepted"}), Error);
+  s.run("seek", {6});
+  const std::array<std::uint32_t, 2> side = {2, 3};
+  CHECK(s.run("answer", {fmt::format("{} {}", side[0], side[1])})["right"] == false);
+  CHECK(debugger.score() == std::array<std::size_t, 2>{2, 1});
+  s.run("seek", {7});
+  const auto steps = debugger.lesson()->steps;
+  const auto asking =
+      std::find_if(steps.begin(), steps.end(), [](const LessonStep& step) { return step.at == 7; });
+  const auto number = debugger.question_of(static_cast<std::size_t>(asking - steps.begin()));
+  REQUIRE(number != nullptr);
+  CHECK(s.run("answer", {number->question.number})["right"] == true);
+  s.run("seek", {2});
+  CHECK(debugger.question_of(1)->is_right == true);
+}
+
 TEST_CASE("each colour of a visit and of a call at a vertex has one entry in the legend") {
   const test::TracedBall trace;
   TraceSession s(trace.path());
