@@ -147,14 +147,19 @@ std::string degree_text(const CallFacts& facts) {
 }
 
 std::string quality_text(const Call& call, const CallFacts& facts) {
+  // The worst of a bad mesh are no zeros.
+  const auto text = [](double quality) {
+    constexpr double kSmall = 0.01;
+    const bool is_small = quality != 0 && std::abs(quality) < kSmall;
+    return is_small ? fmt::format("{:.4f}", quality) : fmt::format("{:.3f}", quality);
+  };
   if (call.accepted() && call.worst_before != 0) {
-    return fmt::format("{:.3f} -> {:.3f}", call.worst_before, call.worst_after);
+    return text(call.worst_before) + " -> " + text(call.worst_after);
   }
-  if (facts.degree_after == 0) return fmt::format("{:.3f} -> removed", facts.quality_before);
-  if (facts.quality_before == facts.quality_after) {
-    return fmt::format("{:.3f}", facts.quality_before);
-  }
-  return fmt::format("{:.3f} -> {:.3f}", facts.quality_before, facts.quality_after);
+  const std::string before = text(facts.quality_before);
+  if (facts.degree_after == 0) return before + " -> removed";
+  if (facts.quality_before == facts.quality_after) return before;
+  return before + " -> " + text(facts.quality_after);
 }
 
 std::string short_name(std::string_view operator_name) {
@@ -227,6 +232,7 @@ std::string_view outcome_name(Outcome outcome) {
 }
 
 std::string outcome_text(const Call& call, std::uint64_t position) {
+  if (position <= call.events.begin) return "to come";
   return position < call.events.end ? "under way" : call.verdict_in_words();
 }
 

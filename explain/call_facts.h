@@ -65,7 +65,7 @@ Outcome outcome_of(const Call& call);
 /// As legends say it: "nothing better found".
 std::string_view outcome_name(Outcome outcome);
 /// "accepted", "undone with call 17", "no improvement", ...; "under way" for a call that has not
-/// ended at that position.
+/// ended at that position, "to come" before it has begun.
 std::string outcome_text(const Call& call, std::uint64_t position);
 
 }  // namespace tetmend::explain

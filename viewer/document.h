@@ -33,6 +33,7 @@ namespace tetmend::viewer {
 struct Message {
   std::string text;
   bool is_error = false;
+  bool is_to_be_seen = false;  ///< not in the status line alone
 };
 
 class Document;

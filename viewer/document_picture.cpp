@@ -127,9 +127,12 @@ std::optional<Ball> Document::call_in_view() {
 
 void Document::fit() {
   constexpr double kSurroundings = 1.3;
-  if (const auto call = call_in_view()) {
+  const auto call = call_in_view();
+  // A mesh that is little more than the call, as in lessons, fills the picture.
+  const bool is_whole = call && kSurroundings * call->radius > ball_.radius;
+  if (call && !is_whole) {
     view.camera.fit({call->centre, kSurroundings * call->radius}, canvas);
-  } else if (std::holds_alternative<std::monostate>(selection_)) {
+  } else if (is_whole || std::holds_alternative<std::monostate>(selection_)) {
     view.camera.fit(box_, canvas);
   } else {
     view.camera.fit(ball_around(mesh_, selection_), canvas);

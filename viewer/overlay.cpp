@@ -165,9 +165,6 @@ class OverlayDrawer {
     const Column column = colour_column([&](double t) { return map.at(t); });
     words({column.left + column.wide, column.upper - 14 * scale_}, scene.colour, Anchor::end);
     numbers(column, find_tet_value(scene.colour).range);
-    if (scene.bad) {
-      swatch(column.left, column.upper + column.height + kLine * scale_, kBadColour, "bad");
-    }
   }
 
   /// At the lower left.

@@ -35,12 +35,15 @@ TEST_CASE("operators and what became of a target are told in words") {
   Call refused;
   CHECK(quality_text(refused, {3, 0, 0.123F, 0}) == "0.123 -> removed");
   CHECK(quality_text(refused, {3, 3, 0.852F, 0.919F}) == "0.852 -> 0.919");
+  CHECK(quality_text(refused, {3, 3, 0.0003F, 0}) == "0.0003 -> 0.000");
 }
 
 TEST_CASE("a call is under way until its last event") {
   const test::HandmadeTrace trace;
   const TraceFile file(trace.path());
   const Call& shell = file.calls()[1];
+  CHECK(outcome_text(shell, shell.events.begin) == "to come");
+  CHECK(outcome_text(shell, shell.events.begin + 1) == "under way");
   CHECK(outcome_text(shell, 5) == "under way");
   CHECK(outcome_text(shell, 6) == "no improvement");
   CHECK(outcome_of(shell) == Outcome::rejected);

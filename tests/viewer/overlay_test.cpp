@@ -89,6 +89,18 @@ TEST_CASE("the words of a short scale bar begin in the picture") {
   CHECK(box_of(std::get<figure::Text>(*found)).left >= 0);
 }
 
+TEST_CASE("the colour bar names no red where tets have the colours of a measure, and none is red") {
+  TestSession s(test::kuhn_cube(2, 0, 1));
+  s.run("colour", {"quality"});
+  s.run("colour_bar");
+  s.document.view.scene.bad_below = 2;
+  REQUIRE(s.document.scene().bad_shown == 0);
+  for (const figure::Shape& shape : draw_overlay(s.document, {}).shapes) {
+    const auto* text = std::get_if<figure::Text>(&shape);
+    CHECK((text == nullptr || text->text != "bad"));
+  }
+}
+
 TEST_CASE("a small picture has no axes: legend and names have the room") {
   TestSession s(test::kuhn_cube(2, 0, 1));
   const auto has_axes = [&](const Canvas& size) {

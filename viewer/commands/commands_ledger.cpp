@@ -21,7 +21,8 @@ json list_calls(Session& s, const json& a) {
   debugger.list_calls(parse_condition(Arguments("list_calls", a).text(0)));
   const FoundCalls& found = *debugger.found();
   s.document.message = {
-      fmt::format("{} calls: {}", grouped(found.calls.size()), to_text(found.condition)), false};
+      fmt::format("{} calls: {}", grouped(found.calls.size()), to_text(found.condition)), false,
+      found.calls.empty()};
   return found.calls;
 }
 

@@ -91,7 +91,7 @@ json run_to_condition(Session& s, const Condition& condition, Direction directio
   }
   s.document.message = {fmt::format("no '{}' {} here", to_text(condition),
                                     direction == Direction::forward ? "after" : "before"),
-                        false};
+                        false, true};
   return false;
 }
 
@@ -118,7 +118,12 @@ json run_to_accepted(Session& s, const json& a) {
 
 template <Direction Where>
 json run(Session& s, const json&) {
-  const auto stop = need_trace(s.document).run(Where);
+  Debugger& debugger = need_trace(s.document);
+  // Who has listed the calls of a condition wants the next of them, and not the end.
+  if (debugger.breakpoints.empty() && debugger.found()) {
+    return run_to_condition(s, debugger.found()->condition, Where);
+  }
+  const auto stop = debugger.run(Where);
   return arrive(s, stop ? fmt::format("breakpoint: {}", to_text(*stop)) : std::string());
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <set>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -429,6 +430,17 @@ bool holds(const Term& term, const ConditionCall& call, const PlaceOf& place_of)
 std::optional<std::uint64_t> find_stop(const ConditionSource& source, const Condition& condition,
                                        std::uint64_t from, Direction direction) {
   return Search(source, condition).find(from, direction);
+}
+
+void need_known_operators(const TraceFile& file, const Condition& condition) {
+  for (const Term& term : condition.terms) {
+    if (term.kind != Kind::operator_name) continue;
+    std::set<std::string_view> known;
+    for (const Call& call : file.calls()) known.insert(file.name(call.operator_name));
+    if (known.contains(term.name)) continue;
+    throw Error(fmt::format("no call of this trace is of operator '{}'; they are of {}", term.name,
+                            fmt::join(known, ", ")));
+  }
 }
 
 std::vector<std::uint32_t> find_all(const ConditionSource& source, const Condition& condition) {

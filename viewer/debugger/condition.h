@@ -96,6 +96,10 @@ struct ConditionSource {
 std::optional<std::uint64_t> find_stop(const ConditionSource& source, const Condition& condition,
                                        std::uint64_t from, Direction direction);
 
+/// @throws Error where a term names an operator that no call of the trace is of, with those that are.
+/// Cost: linear in the calls.
+void need_known_operators(const TraceFile& file, const Condition& condition);
+
 /// All calls of which the condition holds, the nearest to being accepted first: see Call::missing().
 /// @throws Error when it is about edits. Cost: linear in the calls; of a place, replays them.
 std::vector<std::uint32_t> find_all(const ConditionSource& source, const Condition& condition);

@@ -123,6 +123,7 @@ bool Debugger::run_to(const Condition& condition, Direction direction) {
   const std::uint64_t home = position();
   const auto stop = find_stop(source(), condition, home, direction);
   seek(stop.value_or(home));
+  if (!stop) need_known_operators(file_, condition);
   return stop.has_value();
 }
 
@@ -237,6 +238,7 @@ void Debugger::list_calls(const Condition& condition) {
   const std::uint64_t home = position();
   std::vector<std::uint32_t> calls = find_all(source(), condition);
   replay_.seek(home);
+  if (calls.empty()) need_known_operators(file_, condition);
   found_ = {condition, std::move(calls)};
   news = News::found;
 }

@@ -312,8 +312,7 @@ void teach_column(Session& session, const Layout& layout) {
     std::erase_if(parts, [](const Part& part) { return part.focus == Focus::ring; });
   }
   if (shows(Focus::algorithm)) {
-    const Area area = dock_algorithm(session, column, parts.empty() ? 1 : kMostOfColumn);
-    show(algorithm, area);
+    show(algorithm, parts.empty() ? column : dock_algorithm(session, column, kMostOfColumn));
   }
   const float height = column.height / static_cast<float>(std::max<std::size_t>(parts.size(), 1));
   for (const Part& part : parts) {
@@ -344,7 +343,8 @@ void teach(Session& session, const Layout& layout) {
 bool needs_toast(const Message& message, float width) {
   constexpr float kMost = 0.75F;
   if (message.text.empty()) return false;
-  return message.is_error || ImGui::CalcTextSize(message.text.c_str()).x > kMost * width;
+  return message.is_error || message.is_to_be_seen ||
+         ImGui::CalcTextSize(message.text.c_str()).x > kMost * width;
 }
 
 /// Over the picture, until the next act: what the status line does not say, and what can be taken

@@ -17,8 +17,11 @@ namespace tetmend::viewer::ui {
 namespace {
 
 /// How the call has ended here: what is to come is not told.
-Outcome outcome_here(const Debugger& debugger, const Call& call) {
-  return debugger.position() >= call.events.end ? outcome_of(call) : Outcome::unfinished;
+void show_mark_here(const Debugger& debugger, const Call& call) {
+  if (debugger.position() <= call.events.begin) {
+    return ImGui::Dummy({ImGui::GetFontSize(), ImGui::GetFontSize()});
+  }
+  show_mark(debugger.position() >= call.events.end ? outcome_of(call) : Outcome::unfinished);
 }
 
 /// Of "5 -> 4" what is so now, while the call is under way.
@@ -70,7 +73,7 @@ void draw_row(Session& session, const CallRow& row) {
     if (ImGui::SmallButton(row.is_open ? "-" : "+")) debugger.fold(row.call);
     ImGui::SameLine(0, 0.3F * ImGui::GetFontSize());
   }
-  show_mark(outcome_here(debugger, call));
+  show_mark_here(debugger, call);
   ImGui::SameLine(0, 0.2F * ImGui::GetFontSize());
   const std::string name =
       fmt::format("{} {} {}", call.level, short_name(debugger.file(), call), numbers_of(call));
@@ -142,8 +145,9 @@ std::pair<std::string, std::string> longest_numbers(Debugger& debugger,
     const auto take = [](std::string& most, const std::string& text) {
       if (text.size() > most.size()) most = text;
     };
-    take(longest.first, degree_text(facts));
-    take(longest.second, quality_text(call, facts));
+    const bool is_done = debugger.position() >= call.events.end;
+    take(longest.first, until_now(degree_text(facts), is_done));
+    take(longest.second, until_now(quality_text(call, facts), is_done));
   }
   return longest;
 }

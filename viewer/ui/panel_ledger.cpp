@@ -62,7 +62,8 @@ void show_endings(const LedgerRow& row, const LedgerRow* there, std::string& cho
     ImGui::TableNextRow();
     ImGui::TableNextColumn();
     ImGui::Indent();
-    ImGui::TextUnformatted(name_of(ending).data());  // literals
+    const std::string name(name_of(ending));
+    ImGui::TextUnformatted(in_lines(name, ImGui::GetContentRegionAvail().x).c_str());
     ImGui::Unindent();
     if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", kEndingWords[i].reason.data());
     count_cell(cell.calls,
@@ -138,23 +139,34 @@ void show_ledger_rows(Debugger& debugger, std::string& chosen) {
 }
 
 void show_nearness(const LedgerRow& all) {
-  std::size_t near = all.nearness[0] + all.nearness[1] + all.nearness[2];
-  wrapped_text(
-      fmt::format("{} refusals missed by less than {} in the quality of their worst tet; of {} {}",
-                  grouped(near), kNearness[1], grouped(all.nearness.back()), kNothingCompared));
+  wrapped_text(fmt::format(
+      "Of the refused, {} lacked less than {} in the quality of their worst tet; in {} it was good "
+      "enough, and others were not; in {} {}.",
+      grouped(all.nearness[1] + all.nearness[2]), kNearness[1], grouped(all.nearness[0]),
+      grouped(all.nearness.back()), kNothingCompared));
 }
 
 constexpr const char* kLacking = "quality lacking";
 
-/// Of its heading and of both ends of the list: what compared nothing comes last.
-float width_of_lacking(const TraceFile& file, const std::vector<std::uint32_t>& found) {
-  float width = ImGui::CalcTextSize(kLacking).x;
-  if (found.empty()) return width;
-  for (const std::uint32_t number : {found.front(), found.back()}) {
-    const std::string text = file.calls()[number].missing_in_words();
-    width = std::max(width, ImGui::CalcTextSize(text.c_str()).x);
+/// In a narrow column: a number, or a word that explain_lacking() explains.
+std::string lacking_text(const Call& call) {
+  if (call.accepted()) return {};
+  return call.has_qualities() || !call.verdict ? call.missing_in_words() : "-";
+}
+
+/// What the words of the list mean, where it has them: the nearest come first.
+void explain_lacking(const TraceFile& file, const std::vector<std::uint32_t>& found) {
+  if (found.empty()) return;
+  const Call& first = file.calls()[found.front()];
+  const Call& last = file.calls()[found.back()];
+  std::string text;
+  if (lacking_text(first) == "others") {
+    text = "others: the worst tet was good enough, others were not";
   }
-  return width;
+  if (lacking_text(last) == "-") {
+    text += fmt::format("{}-: {}", text.empty() ? "" : "; ", kNothingCompared);
+  }
+  if (!text.empty()) wrapped_text(text);
 }
 
 void show_found_row(Session& session, std::uint32_t number) {
@@ -177,7 +189,7 @@ void show_found_row(Session& session, std::uint32_t number) {
                       call.verdict_in_words().c_str(), reason.c_str());
   }
   ImGui::PopID();
-  number_cell(call.missing_in_words());
+  number_cell(lacking_text(call));
 }
 
 }  // namespace
@@ -213,13 +225,11 @@ void draw_found_panel(Session& session) {
                            to_text(found.condition), grouped(found.calls.size())));
   constexpr ImGuiTableFlags kLooks = ImGuiTableFlags_RowBg | ImGuiTableFlags_ScrollY;
   constexpr float kRows = 8;
-  const float lacking = width_of_lacking(debugger.file(), found.calls);
-  const std::string table = fmt::format("##found{:.0f}", lacking);  // a table keeps its widths
-  if (ImGui::BeginTable(table.c_str(), 2, kLooks,
-                        {0, kRows * ImGui::GetTextLineHeightWithSpacing()})) {
+  if (ImGui::BeginTable("##found", 2, kLooks, {0, kRows * ImGui::GetTextLineHeightWithSpacing()})) {
     ImGui::TableSetupScrollFreeze(0, 1);
     ImGui::TableSetupColumn("call", ImGuiTableColumnFlags_WidthStretch);
-    ImGui::TableSetupColumn(kLacking, ImGuiTableColumnFlags_WidthFixed, lacking);
+    ImGui::TableSetupColumn(kLacking, ImGuiTableColumnFlags_WidthFixed,
+                            ImGui::CalcTextSize(kLacking).x);
     headers_row(1);
     ImGuiListClipper clipper;
     clipper.Begin(static_cast<int>(found.calls.size()));
@@ -229,6 +239,7 @@ void draw_found_panel(Session& session) {
       }
     }
     ImGui::EndTable();
+    explain_lacking(debugger.file(), found.calls);
   }
   if (is_over) debugger.forget_found();
 }

@@ -161,8 +161,12 @@ void tell_progress(const LiveProgress& run) {
   const std::string state(to_string(run.state));
   wrapped_text(fmt::format("{}, {:.1f} s, {} of {} calls accepted", state, run.seconds,
                            grouped(run.accepted), grouped(run.attempts)));
-  const std::string phase = fmt::format("{} {}", run.round, run.phase);
-  ImGui::ProgressBar(static_cast<float>(run.share), {-1, 0}, phase.c_str());
+  const bool is_at_work = run.state == LiveState::running || run.state == LiveState::paused ||
+                          run.state == LiveState::stopping;
+  if (is_at_work) {
+    const std::string phase = fmt::format("{} {}", run.round, spaced(run.phase));
+    ImGui::ProgressBar(static_cast<float>(run.share), {-1, 0}, phase.c_str());
+  }
   if (!run.breakpoint.empty()) ImGui::TextWrapped("breakpoint: %s", run.breakpoint.c_str());
   if (run.state == LiveState::paused && run.last) {
     const LiveCall& call = *run.last;

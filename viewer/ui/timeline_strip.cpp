@@ -9,6 +9,7 @@
 #include "explain/icicle.h"
 #include "explain/outcome_look.h"
 #include "kernel/grouped.h"
+#include "viewer/ui/call_row.h"
 #include "viewer/ui/drawing_canvas.h"
 
 namespace tetmend::viewer::ui {
@@ -69,7 +70,7 @@ void draw_passes(const Band& band, const TraceFile& file) {
     list->AddLine({left, band.corner.y}, {left, band.corner.y + band.size.y},
                   ImGui::GetColorU32(ImGuiCol_Text, 0.25F));
     write_inside(left, right, band.corner.y + 1,
-                 fmt::format("{} {}", file.name(pass.name), pass.round),
+                 fmt::format("{} {}", spaced(file.name(pass.name)), pass.round),
                  ImGui::GetColorU32(ImGuiCol_TextDisabled));
   }
 }

@@ -90,6 +90,42 @@ TEST_CASE("a script lists the calls of a condition and has the ledger of the run
   CHECK_THROWS_WITH_AS(s.run("list_calls", {"tet 3"}), doctest::Contains("about edits"), Error);
 }
 
+TEST_CASE("running on without a breakpoint goes to the next of the calls that are listed") {
+  const test::TracedBall trace;
+  LedgerSession s(trace.path());
+  s.run("list_calls", {"accepted for good"});
+  s.run("run");
+  const std::uint64_t first = s.document.debugger()->position();
+  s.run("to_begin");
+  s.run("next_accepted");
+  CHECK(s.document.debugger()->position() == first);
+  s.run("run");
+  CHECK(s.document.debugger()->position() > first);
+  CHECK(s.document.debugger()->position() < s.file().event_count());
+  s.run("run_back");
+  CHECK(s.document.debugger()->position() == first);
+  s.run("breakpoint", {"level 100"});  // there is none: to the end
+  s.run("run");
+  CHECK(s.document.debugger()->position() == s.file().event_count());
+}
+
+TEST_CASE("an operator that no call is of is told, and what is not found is to be seen") {
+  const test::TracedBall trace;
+  LedgerSession s(trace.path());
+  for (const char* command : {"list_calls", "run_to"}) {
+    CAPTURE(command);
+    CHECK_THROWS_WITH_AS(s.run(command, {"operator nonsense"}),
+                         doctest::Contains("no call of this trace is of operator 'nonsense'; they "
+                                           "are of "),
+                         Error);
+    s.run(command, {"level 100"});
+    CHECK(s.document.message.is_to_be_seen);
+    CHECK_FALSE(s.document.message.is_error);
+  }
+  s.run("list_calls", {"accepted"});
+  CHECK_FALSE(s.document.message.is_to_be_seen);
+}
+
 TEST_CASE("another run stands beside the one that is looked at") {
   const test::TempFolder folder;
   TetMesh mesh(test::delaunay_ball(120, 3));

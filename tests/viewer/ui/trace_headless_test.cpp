@@ -258,6 +258,34 @@ std::array<int, 2> marked_line(const viewer::Image& image, double column) {
 
 }  // namespace
 
+TEST_CASE(
+    "an algorithm that has its column alone begins at the top, and a small mesh fills its "
+    "picture") {
+  const TempFolder folder;
+  const std::string picture = (folder / "a.png").string();
+  std::string script = "size(1920, 1080) panels()\n";
+  for (int i = 0; i < 4; ++i) script += "next_lesson_step()\n";
+  script += fmt::format("screenshot(\"{}\")\n", picture);
+  const test::Outcome outcome =
+      run_trace_script(folder, TETMEND_SOURCE_DIR "/assets/lessons/4-tables.trace", script);
+  CHECK(outcome.err == "");
+  REQUIRE(outcome.status == 0);
+  const viewer::Image image = read_png(picture);
+  CHECK(marked_line(image, 0.7)[0] < 0.3 * image.height);  // line 8 of Algorithm 3
+  // The tets are grey, on a ground that is blue or white.
+  int left = image.width, right = 0;
+  for (int y = 0; y < image.height * 3 / 5; ++y) {
+    for (int x = 0; x < image.width * 2 / 5; ++x) {
+      const viewer::Colour& c = image.at(x, y);
+      if (c.red < 190 && c.red > c.blue && c.red > 100) {
+        left = std::min(left, x);
+        right = std::max(right, x);
+      }
+    }
+  }
+  CHECK(right - left > 0.13 * image.width);
+}
+
 TEST_CASE("the line of the algorithm is marked, moves with the call, and is always in sight") {
   const TempFolder folder;
   const auto picture = [&](const std::string& name) { return (folder / (name + ".png")).string(); };
