@@ -20,10 +20,14 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <tetmend/check.h>
+#include <tetmend/improve.h>
 #include <tetmend/measure.h>
 
+#include "envelope/element.h"
 #include "face/arena.h"
 #include "face/mesh_access.h"
+#include "face/moving_surface.h"
+#include "face/near_surface.h"
 #include "kernel/curved.h"
 #include "kernel/exact_orientation.h"
 #include "kernel/formats/inp.h"
@@ -136,6 +140,62 @@ Fact same(std::string name, std::string_view what, const std::vector<T>& before,
   return {std::move(name), differing == 0, text, differing, std::uint64_t{0}};
 }
 
+Point point_of(const Bits& bits) {
+  return {std::bit_cast<double>(bits[0]), std::bit_cast<double>(bits[1]),
+          std::bit_cast<double>(bits[2])};
+}
+
+/// What stands for what when a surface may have moved, numbered for both meshes alike.
+class Sheets {
+ public:
+  void add(const Wall& wall, std::vector<face::SurfacePiece>& pieces) {
+    add({wall.corners[0], wall.corners[1], wall.corners[2]},
+        fmt::format("{} {} {}", wall.labels[0], wall.labels[1], wall.is_boundary), pieces);
+  }
+  void add(const std::pair<std::array<Bits, 3>, Label>& triangle,
+           std::vector<face::SurfacePiece>& pieces) {
+    const auto& [corners, label] = triangle;
+    add({corners[0], corners[1], corners[2]}, fmt::format("{}", label), pieces);
+  }
+  /// @param corners of a triangle or an edge
+  void add(const std::vector<Bits>& corners, const std::string& name,
+           std::vector<face::SurfacePiece>& pieces) {
+    const auto sheet = static_cast<std::uint32_t>(sheets_.size());
+    face::SurfacePiece piece;
+    piece.corners = static_cast<unsigned>(corners.size());
+    piece.sheet = sheets_.try_emplace(name, sheet).first->second;
+    for (std::size_t k = 0; k < 3; ++k) {
+      piece.points[k] = point_of(corners[std::min(k, corners.size() - 1)]);
+    }
+    pieces.push_back(piece);
+  }
+
+ private:
+  std::map<std::string, std::uint32_t> sheets_;
+};
+
+/// As same(), or with a tolerance: each within it of what stands for it in the other mesh.
+template <class T>
+Fact same_or_near(std::string name, std::string_view what, const std::vector<T>& before,
+                  const std::vector<T>& after, const face::NearTolerance& tolerance) {
+  if (tolerance.surface.is_fixed()) return same(std::move(name), what, before, after);
+  Sheets sheets;
+  std::vector<face::SurfacePiece> then, now;
+  for (const T& each : before) sheets.add(each, then);
+  for (const T& each : after) sheets.add(each, now);
+  const face::Nearness found = face::prove_near(then, now, tolerance);
+  std::string text =
+      fmt::format("{}: {}, was {}", what, grouped(after.size()), grouped(before.size()));
+  if (found.unproven > 0) {
+    text += fmt::format("; of {} no proof is found that they are within the tolerance",
+                        grouped(found.unproven));
+  } else if (found.others > 0) {
+    text += fmt::format("; {} are new, and nothing is farther than {:.3g} from the others",
+                        grouped(found.others), found.distance);
+  }
+  return {std::move(name), found.unproven == 0, text, found.unproven, std::uint64_t{0}};
+}
+
 /// In lengths that can be worked with.
 double volume_of(const MeshData& mesh, const MeshData::Tet& tet, const Scale& scale) {
   const auto point = [&](std::size_t k) { return scale.to_work(mesh.points[tet.vertices[k]]); };
@@ -148,8 +208,31 @@ std::map<Label, double> volumes_of(const MeshData& mesh, const Scale& scale) {
   return volumes;
 }
 
+/// By how much the volume behind a wall may change that moves within the tolerance, by label: no
+/// more than its area times that, and a little, as it may bend.
+std::map<Label, double> volumes_allowed(const std::vector<Wall>& walls, const Scale& scale,
+                                        const face::NearTolerance& tolerance) {
+  constexpr double kBends = 1.5;
+  const EnvelopeOptions options = tolerance.surface.envelope_options();
+  std::map<Label, double> allowed;
+  for (const Wall& wall : walls) {
+    std::array<Point, 3> p;
+    for (std::size_t k = 0; k < 3; ++k) p[k] = scale.to_work(point_of(wall.corners[k]));
+    const double mean_edge =
+        ((p[1] - p[0]).norm() + (p[2] - p[1]).norm() + (p[0] - p[2]).norm()) / 3;
+    const double away =
+        options.length > 0 ? scale.to_work(options.length) : options.share * mean_edge;
+    allowed[wall.labels[0]] += kBends * away * triangle_area(p);
+    if (wall.labels[1] != wall.labels[0])
+      allowed[wall.labels[1]] += kBends * away * triangle_area(p);
+  }
+  return allowed;
+}
+
 /// Volumes of inverted tets count as they are, so the sum over a region depends on its walls alone.
-std::vector<Fact> same_volumes(const MeshData& before, const MeshData& after, const Scale& scale) {
+/// @param allowed further changes, by label
+std::vector<Fact> same_volumes(const MeshData& before, const MeshData& after, const Scale& scale,
+                               const std::map<Label, double>& allowed) {
   constexpr double kRounding = 1e-9;
   const std::map<Label, double> then = volumes_of(before, scale);
   const std::map<Label, double> now = volumes_of(after, scale);
@@ -159,9 +242,10 @@ std::vector<Fact> same_volumes(const MeshData& before, const MeshData& after, co
   for (const auto& [label, volume] : then) {
     const auto found = now.find(label);
     const double other = found == now.end() ? 0 : found->second;
-    const double change = std::abs(other - volume) / std::max(std::abs(volume), 1e-300);
+    const auto more = allowed.find(label);
+    const double most = kRounding * std::abs(volume) + (more == allowed.end() ? 0 : more->second);
     facts.push_back(
-        {"volume", change <= kRounding,
+        {"volume", found != now.end() && std::abs(other - volume) <= std::max(most, 1e-300),
          fmt::format("volume of label {}: {}, was {}", label, text(other), text(volume)),
          in_file(other), in_file(volume)});
   }
@@ -386,8 +470,21 @@ Fact not_more_inverted(const MeshData& before, const MeshData& listed_before, co
   return is_listed_worse ? no_inverted(listed_after, allowed) : no_inverted(after, count(before));
 }
 
+/// Triangles or edges of a group, of which one may have been moved within the tolerance.
+bool are_near(const std::vector<std::vector<Bits>>& before,
+              const std::vector<std::vector<Bits>>& after, const face::NearTolerance& tolerance) {
+  if (tolerance.surface.is_fixed()) return false;
+  Sheets sheets;
+  std::vector<face::SurfacePiece> then, now;
+  for (const auto& each : before) sheets.add(each, "", then);
+  for (const auto& each : after) sheets.add(each, "", now);
+  return face::prove_near(then, now, tolerance).unproven == 0;
+}
+
 /// One fact for all groups, which names the first that differs.
-Fact same_groups(const MeshData& before, const MeshData& after, const Scale& scale) {
+/// @param volume  by how much one may change
+Fact same_groups(const MeshData& before, const MeshData& after, const Scale& scale,
+                 const face::NearTolerance& tolerance, double volume) {
   constexpr double kRounding = 1e-9;
   const auto then = contents_of_groups(before, scale);
   const auto now = contents_of_groups(after, scale);
@@ -401,17 +498,17 @@ Fact same_groups(const MeshData& before, const MeshData& after, const Scale& sca
       continue;
     }
     const double change = std::abs(found->second.volume - content.volume);
-    if (found->second.elements == content.elements &&
-        change <= kRounding * std::abs(content.volume)) {
-      continue;
-    }
+    const bool is_same = found->second.elements == content.elements ||
+                         are_near(content.elements, found->second.elements, tolerance);
+    if (is_same && change <= kRounding * std::abs(content.volume) + volume) continue;
     if (differing++ == 0) first = name;
   }
   const std::string text =
       differing == 0
-          ? fmt::format("triangles, edges and volumes of {} named groups{}: the same",
+          ? fmt::format("triangles, edges and volumes of {} named groups{}: the same{}",
                         grouped(then.size() - gone),
-                        gone == 0 ? "" : fmt::format(" that both have, of {}", then.size()))
+                        gone == 0 ? "" : fmt::format(" that both have, of {}", then.size()),
+                        tolerance.surface.is_fixed() ? "" : ", within the tolerance")
           : fmt::format("{} groups have other triangles, edges or volumes, the first is {}",
                         grouped(differing), first);
   return {"group_contents", differing == 0, text, differing, std::uint64_t{0}};
@@ -604,9 +701,8 @@ std::vector<Fact> no_dearer(Use use, const Measurement& then, const Measurement&
   return {};
 }
 
-std::vector<Fact> same_walls(const MeshData& before, const MeshData& after) {
-  std::vector<Wall> then = walls_of(before);
-  std::vector<Wall> now = walls_of(after);
+std::vector<Fact> same_walls(std::vector<Wall> then, std::vector<Wall> now,
+                             const face::NearTolerance& tolerance) {
   const auto split = [](std::vector<Wall>& walls) {
     const auto middle = std::stable_partition(walls.begin(), walls.end(),
                                               [](const Wall& wall) { return wall.is_boundary; });
@@ -616,8 +712,40 @@ std::vector<Fact> same_walls(const MeshData& before, const MeshData& after) {
   };
   const std::vector<Wall> inner_then = split(then);
   const std::vector<Wall> inner_now = split(now);
-  return {same("surface", "triangles of the surface", then, now),
-          same("walls", "faces between two labels", inner_then, inner_now)};
+  return {same_or_near("surface", "triangles of the surface", then, now, tolerance),
+          same_or_near("walls", "faces between two labels", inner_then, inner_now, tolerance)};
+}
+
+/// @throws OptionError for a surface that is none
+face::NearTolerance tolerance_around(const MeshData& mesh, const Options& run) {
+  constexpr double kFar = std::numeric_limits<double>::infinity();
+  face::NearTolerance tolerance{face::SurfaceTolerance(run), Point::Constant(kFar),
+                                Point::Constant(-kFar)};
+  for (const MeshData::Tet& tet : mesh.tets) {
+    for (const std::uint32_t v : tet.vertices) {
+      tolerance.low = tolerance.low.cwiseMin(mesh.points[v]);
+      tolerance.high = tolerance.high.cwiseMax(mesh.points[v]);
+    }
+  }
+  return tolerance;
+}
+
+/// Walls, named triangles, groups and volumes: what a surface makes, that stays or moves within a
+/// tolerance.
+std::vector<Fact> same_surface(const MeshData& before, const MeshData& after, const Scale& scale,
+                               const face::NearTolerance& tolerance) {
+  std::vector<Wall> walls = walls_of(before);
+  std::map<Label, double> allowed;
+  if (!tolerance.surface.is_fixed()) allowed = volumes_allowed(walls, scale, tolerance);
+  double most = 0;
+  for (const auto& [label, volume] : allowed) most += volume;
+  std::vector<Fact> facts = same_walls(std::move(walls), walls_of(after), tolerance);
+  facts.push_back(same_or_near("triangles", "named triangles with labels", named_triangles(before),
+                               named_triangles(after), tolerance));
+  facts.push_back(same("groups", "groups", group_names(before), group_names(after)));
+  facts.push_back(same_groups(before, after, scale, tolerance, most));
+  for (Fact& fact : same_volumes(before, after, scale, allowed)) facts.push_back(std::move(fact));
+  return facts;
 }
 
 }  // namespace
@@ -662,8 +790,11 @@ std::vector<Fact> check(const Mesh& mesh, const CheckOptions& options) {
 }
 
 std::vector<Fact> compare(const Mesh& first, const Mesh& second, int threads,
-                          std::string_view name_of_preset, const Goal& goal) {
+                          std::string_view name_of_preset, const Goal& goal,
+                          std::string_view surface) {
   const Preset* const preset = find_preset(name_of_preset);
+  Options run;
+  run.surface = surface;
   const Scale scale = scale_of(first);
   scale_of(second);  // or an error
   MeshData own_before, own_after, numbered_after;
@@ -673,13 +804,9 @@ std::vector<Fact> compare(const Mesh& first, const Mesh& second, int threads,
   const auto [right_before, right_after] = face::on_threads(threads, put_both_right);
   const MeshData& before = *right_before;
   const MeshData& after = numbered_as(before, *right_after, numbered_after);
-  std::vector<Fact> facts = same_walls(before, after);
-  facts.push_back(same("triangles", "named triangles with labels", named_triangles(before),
-                       named_triangles(after)));
-  facts.push_back(same("groups", "groups", group_names(before), group_names(after)));
-  facts.push_back(same_groups(before, after, scale));
+  std::vector<Fact> facts = face::on_threads(
+      threads, [&] { return same_surface(before, after, scale, tolerance_around(before, run)); });
   if (!before.other_elements.empty()) facts.push_back(same_shared_parts(before, after));
-  for (Fact& fact : same_volumes(before, after, scale)) facts.push_back(std::move(fact));
   const auto inverted_before = std::get<std::uint64_t>(no_inverted(before).value);
   facts.push_back(
       not_more_inverted(before, MeshAccess::data(first), after, MeshAccess::data(second)));

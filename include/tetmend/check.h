@@ -36,6 +36,8 @@ struct CheckOptions {
   std::string preset = {};  ///< what a solver or a use asks, see check_presets(); empty: none
   int threads = 1;          ///< 1 to 1024
   Goal goal = {};           ///< of the run, for compare(): tets that miss it are bad
+  std::string surface =
+      {};  ///< of the run, for compare(), as Options::surface: how far it may have moved
 
   /// Whether there is anything to look at.
   bool asks() const {
@@ -54,9 +56,14 @@ TETMEND_API std::vector<Fact> check(const Mesh& mesh, const CheckOptions& option
 /// @param preset  a use that it must suit as well as before: "explicit", "implicit"; others add no
 /// facts
 /// @param goal  of the run, if there was one: what of it is no worse depends on which tets are bad
-/// @throws Error as measure(); OptionError for an unknown preset ("for"). Cost: n log n.
+/// @param surface  of the run, as Options::surface: how far the surface may have moved, faces between
+/// labels and named triangles included. Each is proven, wholly, to lie within that of what was there,
+/// and what was there of it; without one, they must be the same, bit for bit
+/// @throws Error as measure(); OptionError for an unknown preset ("for") or a surface that is none.
+/// Cost: n log n.
 TETMEND_API std::vector<Fact> compare(const Mesh& before, const Mesh& after, int threads = 1,
-                                      std::string_view preset = {}, const Goal& goal = {});
+                                      std::string_view preset = {}, const Goal& goal = {},
+                                      std::string_view surface = {});
 
 /// What one solver, or one use, asks of a mesh.
 struct CheckPreset {

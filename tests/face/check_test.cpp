@@ -4,8 +4,11 @@
 #include <string>
 
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 #include <tetmend/check.h>
+#include <tetmend/improve.h>
 
+#include "contract/zoo.h"
 #include "face/mesh_access.h"
 #include "tests/support/mixed_mesh.h"
 
@@ -171,4 +174,70 @@ TEST_CASE("groups that only one of two meshes has are gone, and not told as the 
         "triangles, edges and volumes of 0 named groups that both have, of 2: the same");
   CHECK(find(compare(first, first), "group_contents").text ==
         "triangles, edges and volumes of 2 named groups: the same");
+}
+
+namespace {
+
+constexpr std::array<const char*, 5> kOfSurface = {"surface", "walls", "triangles",
+                                                   "group_contents", "volume"};
+
+/// Names of the facts about the surface that do not hold.
+std::vector<std::string> moved_facts(const Mesh& before, const Mesh& after,
+                                     std::string_view surface) {
+  std::vector<std::string> failed;
+  for (const Fact& fact : compare(before, after, 1, {}, {}, surface)) {
+    const bool is_of_surface =
+        std::find(kOfSurface.begin(), kOfSurface.end(), fact.name) != kOfSurface.end();
+    if (is_of_surface && !fact.holds) failed.push_back(fact.name);
+  }
+  return failed;
+}
+
+using Names = std::vector<std::string>;
+
+}  // namespace
+
+TEST_CASE("a surface that moved is within the tolerance both ways, or it is told") {
+  const Mesh mesh = two_tet_mesh(2);
+  const auto with_corner = [&](double shift) {
+    MeshData moved = MeshAccess::data(mesh);
+    moved.points[4].x() += shift;
+    return MeshAccess::make(moved);
+  };
+  CHECK(moved_facts(mesh, mesh, "flat").empty());
+  const Mesh near = with_corner(0.005);
+  CHECK(moved_facts(mesh, near, "") == Names{"surface", "volume"});
+  CHECK(moved_facts(mesh, near, "flat") == Names{"surface", "volume"});
+  CHECK(moved_facts(mesh, near, "0.004") == Names{"surface"});
+  CHECK(moved_facts(mesh, near, "0.006").empty());
+  CHECK(moved_facts(mesh, near, "1%").empty());
+  // What was there has to be there still: here one of the tets is gone.
+  const Mesh less(
+      {.points = {kPoints.begin(), kPoints.end()}, .tets = {{0, 1, 2, 3}}, .tet_labels = {0}});
+  const Mesh more({.points = {kPoints.begin(), kPoints.end()},
+                   .tets = {{0, 1, 2, 3}, {1, 2, 3, 4}},
+                   .tet_labels = {0, 0}});
+  CHECK(moved_facts(more, less, "1%") == Names{"surface", "volume"});
+  CHECK_THROWS_WITH_AS(compare(mesh, near, 1, {}, {}, "far"),
+                       doctest::Contains("surface: 'far' is none of fixed, flat"), OptionError);
+}
+
+TEST_CASE("what a run with a moving surface makes is within its tolerance, and of no smaller one") {
+  MeshData data = contract::kuhn_cube(4, 0.35, 7);
+  for (std::size_t t = 0; t < data.tets.size(); ++t) data.tets[t].label = t % 6 < 3 ? 1 : 2;
+  const Mesh before = MeshAccess::make(data);
+  std::size_t moved = 0;
+  for (const char* surface : {"flat", "1%", "10%", "50%", "0.02!"}) {
+    CAPTURE(surface);
+    Mesh after = before;
+    const Result result = improve(after, {.schedule = "surface", .surface = surface});
+    CHECK(moved_facts(before, after, surface).empty());
+    REQUIRE(result.surface_change);
+    if (result.surface_change->sampled < 1e-6) continue;
+    ++moved;
+    CHECK_FALSE(
+        moved_facts(before, after, fmt::format("{}!", result.surface_change->sampled / 2)).empty());
+    CHECK_FALSE(moved_facts(before, after, "").empty());
+  }
+  CHECK(moved > 1);
 }

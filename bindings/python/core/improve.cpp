@@ -168,7 +168,8 @@ py::list check_mesh(const Mesh& mesh, const Mesh* improved, const CheckOptions& 
   std::vector<Fact> facts;
   run_detached([&] {
     if (improved != nullptr) {
-      facts = compare(mesh, *improved, options.threads, options.preset, options.goal);
+      facts =
+          compare(mesh, *improved, options.threads, options.preset, options.goal, options.surface);
     }
     if (!options.asks()) return;
     for (Fact& fact : check(improved != nullptr ? *improved : mesh, options)) {
@@ -227,9 +228,10 @@ void add_improve(py::module_& module) {
       [](const Mesh& mesh, const Mesh* improved, double min_dihedral, double max_dihedral,
          bool no_inverted, const std::vector<std::pair<std::string, double>>& measure,
          const std::string& preset, int threads, const Settings& settings) {
+        const Options run = to_options(settings);
         return check_mesh(mesh, improved,
                           {min_dihedral, max_dihedral, no_inverted, measure, preset, threads,
-                           to_options(settings).goal});
+                           run.goal, run.surface});
       },
       "mesh"_a, "improved"_a.none(true), "min_dihedral"_a, "max_dihedral"_a, "no_inverted"_a,
       "measure"_a, "preset"_a, "threads"_a, "settings"_a);
