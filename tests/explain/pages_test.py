@@ -84,7 +84,7 @@ const cutOff = () => {
 };
 const table = (id) => Object.fromEntries([...document.querySelectorAll(`#${id} td[data-cell]`)].map((td) => [td.dataset.cell, td.textContent]));
 goTo(n);
-goToBall(inView.ball, true);
+goToPlaces(inView.places, true);
 const filling = shellBeingFilled(steps[n]);
 const cells = filling ? cellsOf(filling).length : 0;
 const fact = {position: Number(document.body.dataset.position), shown: Number(document.body.dataset.shown), hash: location.hash,

@@ -140,6 +140,43 @@ class Stage(unittest.TestCase):
         self.assertGreater(len(self.fingers), 100)
         self.assertEqual([line for line in self.fingers if line[1] < 31.9], [], "lines too low for fingers")
 
+    def test_the_camera_goes_to_what_each_step_is_about(self) -> None:
+        """To the tets of a call, or to the tet that the pass turns to: all of them are in the picture, and they fill it."""
+        look = """
+        const size = {width: stage.clientWidth, height: stage.clientHeight};
+        const step = steps[place.step];
+        const visited = tetVisited(step);
+        const about = visited ? [...present.tets].filter((tet) => tets[tet].corners.every((corner) => visited.includes(points[corner].vertex))) : [];
+        const seen = (about.length > 0 ? [...placesIn(about).values()] : scene.places).map((at) => camera.project(at, size));
+        const extent = [0, 1].map((axis) => [Math.min(...seen.map((at) => at[axis])), Math.max(...seen.map((at) => at[axis]))]);
+        const isWithCaller = callOf(step)?.caller ? true : false;
+        return {size: [size.width, size.height], extent, isTet: about.length > 0, isWithCaller};
+        """
+        tets = 0
+        for width, height, _ in SIZES.values():
+            where = window(width, height)
+            try:
+                for page in PAGES:
+                    where.open("about:blank")
+                    where.open(page.as_uri())
+                    for n, step in enumerate(recording(page)["lesson"]["steps"], 1):
+                        if n > 1:
+                            where.run("document.getElementById('lesson-next').click()")
+                        if "picture" not in step["focus"]:
+                            continue
+                        at = where.run(look)
+                        what = f"{page.name}, step {n}, {width}x{height}: {at}"
+                        for (low, high), room in zip(at["extent"], at["size"]):
+                            self.assertTrue(low > -1 and high < room + 1, what)
+                        parts = [(high - low) / room for (low, high), room in zip(at["extent"], at["size"])]
+                        if not at["isWithCaller"]:
+                            self.assertGreater(max(parts), 0.4 if at["isTet"] else 0.55, what)
+                        tets += at["isTet"]
+                self.quiet(where, "camera")
+            finally:
+                where.close()
+        self.assertGreater(tets, 3)
+
     def test_what_is_promised_is_shown_where_the_trace_has_it(self) -> None:
         """At most the first step of a lesson, before any call, has a panel less than its focus."""
         where = window(1920, 1080)

@@ -71,7 +71,7 @@ function ringLines(call, position, line) {
 }
 
 function makeScene(step, cell, when, apart, showAround) {
-  const scene = {faces: [], lines: [], names: [], shown: 0, kinds: new Set(), places: [], shellOfCaller: []};
+  const scene = {faces: [], lines: [], names: [], shown: 0, kinds: new Set(), places: [], shellOfCaller: [], visited: null};
   const call = callOf(step);
   const {full, around} = tetsShown(step, when);
   const places = placesIn(full, call?.before ?? [], present.tets);
@@ -125,7 +125,8 @@ function makeScene(step, cell, when, apart, showAround) {
     }
   }
   const visited = tetVisited(step);
-  if (visited && full.some((tet) => tets[tet].corners.every((corner) => visited.includes(points[corner].vertex)))) {
+  if (visited) scene.visited = full.find((tet) => tets[tet].corners.every((corner) => visited.includes(points[corner].vertex))) ?? null;
+  if (scene.visited !== null) {
     visited.forEach((v, i) => visited.slice(i + 1).forEach((w) => line(v, w, "visited", 3.5)));
     visited.forEach((vertex) => named.set(vertex, {text: `${vertex}`, end: true}));
   }

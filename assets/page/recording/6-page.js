@@ -53,7 +53,11 @@ function redrawPicture() {
 
 /** For paper, and for a browser without WebGL. */
 function drawForPrint() {
-  drawFlat(flat, scene, camera, {width: 640, height: 440});
+  const size = {width: 640, height: 440};
+  const {centre, radius} = camera;
+  Object.assign(camera, frameOf(inView.places, size));
+  drawFlat(flat, scene, camera, size);
+  Object.assign(camera, {centre, radius});
 }
 
 /** The axis of the picture: the edge of the call. */
@@ -78,9 +82,32 @@ function lookAlong(call) {
   if (axis) camera.look(scale(axis, -1), camera.up);
 }
 
+/** Middle and size of the picture in which these places are as large as they go, as the camera looks now; turned, they stay in sight. */
+function frameOf(places, size) {
+  const ball = ballAround(places.length > 0 ? places : [[0, 0, 0]]);
+  const least = 0.5 * ball.radius;  // nearer, the eye would be among the tets
+  const fill = 0.41;  // of the picture, to both sides; names need the rest
+  const room = [size.width, size.height].map((x) => fill / 0.42 * x / Math.min(size.width, size.height));
+  const axes = [camera.right, camera.up];
+  let {centre, radius} = ball;
+  for (let round = 0; round < 6; ++round) {  // what is nearer is larger, the more so the smaller the radius
+    const seen = places.map((place) => {
+      const q = subtract(place, centre);
+      const nearer = 4.2 * radius / Math.max(4.2 * radius - dot(q, camera.towards), 0.5 * radius);
+      return axes.map((axis) => nearer * dot(q, axis));
+    });
+    if (seen.length === 0) break;
+    const ends = axes.map((_, n) => [Math.min(...seen.map((at) => at[n])), Math.max(...seen.map((at) => at[n]))]);
+    axes.forEach((axis, n) => { centre = add(centre, scale(axis, (ends[n][0] + ends[n][1]) / 2)); });
+    radius = Math.max(least, ...ends.map(([low, high], n) => (high - low) / 2 / room[n]));
+  }
+  return {centre, radius};
+}
+
 let flight = 0;
-function goToBall({centre, radius}, isSudden) {
+function goToPlaces(places, isSudden) {
   cancelAnimationFrame(flight);
+  const {centre, radius} = frameOf(places, {width: Math.max(stage.clientWidth, 1), height: Math.max(stage.clientHeight, 1)});
   const from = {centre: camera.centre, radius: camera.radius};
   const isStill = isSudden || matchMedia("(prefers-reduced-motion: reduce)").matches || document.hidden;
   const begin = performance.now();
@@ -97,7 +124,7 @@ function goToBall({centre, radius}, isSudden) {
 
 // --- steps ---
 
-let inView = {call: undefined, ball: null};
+let inView = {aim: undefined, places: []};
 
 // What does not fit into its card is reached by keys, too.
 function letKeysScroll() {
@@ -139,28 +166,34 @@ function show(isSudden = false) {
   const words = call ? `${call.name} ${call.place}: ${scene.shown} tets` : `${scene.shown} tets`;
   canvas.setAttribute("aria-label", words);
   flat.setAttribute("aria-label", words);
-  // The camera follows the call, and stays while the call does.
-  const places = scene.places.length > 0 ? scene.places : [...placesIn(call?.before ?? [], present.tets).values()];
-  const ball = ballInView(call, places);
-  if (inView.call !== step.call || !inView.ball) {
-    if (inView.call === undefined) lookFromSide(call ?? calls.values().next().value);
-    inView = {call: step.call, ball};
-    goToBall(ball, isSudden);
+  // The camera follows the call, or the tet that the pass turns to, and stays while that does.
+  const aim = `${step.call} ${scene.visited} ${stage.clientWidth} ${stage.clientHeight}`;
+  if (inView.aim !== aim) {
+    const isFirst = inView.aim === undefined;
+    if (isFirst) lookFromSide(call ?? calls.values().next().value);
+    const places = [placesInView(call), scene.places, [...placesIn(present.tets).values()]].find((some) => some.length > 0);
+    inView = {aim, places: places ?? []};
+    goToPlaces(inView.places, isSudden || isFirst);
   } else {
     drawPicture();
   }
   Object.assign(document.body.dataset, {position: step.position, cell: place.cell, shown: scene.shown, call: step.call ?? ""});
 }
 
-/** The tets of the call, and those of its caller where they are about as large: both shells are to be seen. */
-function ballInView(call, places) {
-  const all = call ? [...placesIn(tetsOf(call)).values()] : places;
-  if (all.length === 0) return ballAround(places.length > 0 ? places : [[0, 0, 0]]);
-  const own = ballAround(all);
-  const caller = call && call.parent !== null ? calls.get(call.parent) : null;
-  if (!caller?.before) return own;
-  const both = ballInView(caller, places);
-  return both.radius < 2.2 * own.radius ? both : own;
+/** Places that the camera is to have in the picture. A tet that the pass turns to comes with those beside it, unless they are much larger.
+    A call comes with its caller where that is about as large: both shells are to be seen. */
+function placesInView(call) {
+  if (!call) {
+    const {places, visited} = scene;
+    if (visited === null) return places;
+    const own = [...placesIn([visited]).values()];
+    return ballAround(places).radius < 1.4 * ballAround(own).radius ? places : own;
+  }
+  const own = [...placesIn(tetsOf(call)).values()];
+  const caller = call.parent === null ? null : calls.get(call.parent);
+  if (own.length === 0 || !caller?.before) return own;
+  const both = [...own, ...placesInView(caller)];
+  return ballAround(both).radius < 2.2 * ballAround(own).radius ? both : own;
 }
 
 function showPlace(step, cells) {
@@ -307,7 +340,7 @@ const KEYS = [
   [["2"], "The tets as the call found them", () => showWhen("before")],
   [["3"], "The tets as the call left or tried them", () => showWhen("after")],
   [["a"], "Look along the edge", () => { lookAlong(callOf(steps[place.step])); redrawPicture(); }],
-  [["h"], "Look from the side", () => { camera.zoom = 1; lookFromSide(callOf(steps[place.step])); goToBall(inView.ball, true); }],
+  [["h"], "Look from the side", () => { camera.zoom = 1; lookFromSide(callOf(steps[place.step])); goToPlaces(inView.places, true); }],
   [["t"], "Light or dark", chooseTheme],
   [["g"], "Large text, for a projector", toggleSize],
   [["c"], "Copy a link to this step", copyLink],
@@ -389,7 +422,7 @@ function begin() {
     make("tr", {}, make("td", {}, "drag, pinch, wheel"), make("td", {}, "Turn and zoom the picture; Shift and arrows turn it when it has the focus")));
   watchLooks(show, drawForPrint);
   addEventListener("hashchange", goToHash);
-  new ResizeObserver(redrawPicture).observe(stage);
+  new ResizeObserver(() => goToPlaces(inView.places, true)).observe(stage);
   if (!goToHash()) show(true);
 }
 
