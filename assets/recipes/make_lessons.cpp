@@ -243,6 +243,19 @@ class LessonWriter {
     }
     return worst;
   }
+  /// Bad tets of the first mesh whose vertices all have smaller numbers than that.
+  std::size_t bad_below(std::size_t end) {
+    replay_.seek(0);
+    const SlotMesh& mesh = replay_.mesh();
+    const auto is_below = [end](VertexHandle v) { return v.index() < end; };
+    std::size_t count = 0;
+    for (std::uint32_t i = 0; i < mesh.tet_slots(); ++i) {
+      const TetHandle t(i);
+      if (mesh.is_deleted(t) || mesh.quality(t) >= 1) continue;
+      if (std::ranges::all_of(mesh.vertices(t), is_below)) ++count;
+    }
+    return count;
+  }
 
  private:
   const TraceFile& file_;
@@ -556,11 +569,14 @@ void write_tables(LessonWriter& lesson) {
 
 void write_reconnection(LessonWriter& lesson) {
   const TraceFile& file = lesson.file();
+  const MeshData shells = two_shells();
   lesson.say(0,
-             "Three pieces with bad tets: the two shells of the second lesson, two flat tets that "
-             "share a face, and a flat tet by itself. Algorithm 5 wants all of them gone.",
+             fmt::format("Three pieces: the two shells of the second lesson, of whose {} tets {} "
+                         "are bad, two flat tets that share a face, and a flat tet by itself. "
+                         "Algorithm 5 wants all bad tets gone.",
+                         shells.tets.size(), lesson.bad_below(shells.points.size())),
              {Focus::picture});
-  lesson.ask_for("bad tets", "Bad tets are red: how many are there?");
+  lesson.ask_for("bad tets", "Flat tets are bad, too. How many red tets are there in all?");
   const auto begins = file.passes().front().events.begin + 1;
   lesson.say(begins, "The bad tets are queued, those of lowest quality first.", {Focus::algorithm});
   lesson.ask(Ask::Kind::line, "Which line of Algorithm 5 comes next?");
@@ -620,8 +636,8 @@ void write_smoothing(LessonWriter& lesson) {
   lesson.say(lesson.after(call, EventKind::candidate_found),
              "A better place is found. All other vertices stay where they are.", {Focus::picture});
   lesson.say(moved,
-             fmt::format("The vertex has moved, and all {} tets of its ball with it. Compare "
-                         "Before and After.",
+             fmt::format("The vertex has moved, and all {} tets of its ball with it. One "
+                         "step back and on again shows the difference.",
                          lesson.cavity(moved).created.size()),
              {Focus::picture});
   lesson.say(
@@ -655,7 +671,8 @@ void write_cavity(LessonWriter& lesson) {
              "new tet is best, and the cavity was chosen once more for that place.",
              {Focus::picture});
   lesson.ask_for("tets made",
-                 fmt::format("{} tets will be taken out. How many will there be in their place?",
+                 fmt::format("{} tets will be taken out, and each outer face of the hole makes a "
+                             "tet with the new vertex. How many will there be?",
                              cavity.removed.size()));
   lesson.say(
       replaced,
@@ -691,16 +708,17 @@ void write_polyhedron(LessonWriter& lesson) {
   lesson.ask(Ask::Kind::accepted, "Will it find a better way to fill one?");
   lesson.say(
       replaced,
-      fmt::format("With {} vertices there is a better one. {} tets give way to {} that fill "
-                  "the same polyhedron: its outer faces and its vertices are what they were.",
-                  corners.size(), cavity.removed.size(), cavity.created.size()),
+      fmt::format("With {} vertices there is a better one. {} tets have given way to those in "
+                  "sight, which fill the same polyhedron: its outer faces and its vertices are "
+                  "what they were.",
+                  corners.size(), cavity.removed.size()),
       {Focus::picture});
-  lesson.ask_for("bad tets", "Bad tets are red: how many does the mesh have now?");
+  lesson.ask_for("tets made", "How many tets fill it now?");
   lesson.say(call.events.end,
-             fmt::format("The change stays: {}. The price is time: the search grows "
-                         "fast with the number of vertices, so it is for the worst "
+             fmt::format("{} tets instead of {}, and the change stays: {}. The price is time: the "
+                         "search grows fast with the number of vertices, so it is for the worst "
                          "tets, after everything else.",
-                         qualities(call)),
+                         cavity.created.size(), cavity.removed.size(), qualities(call)),
              {Focus::picture, Focus::tree});
 }
 

@@ -86,6 +86,26 @@ TEST_CASE("each lesson has a whole trace of its mesh, small, and steps inside it
   }
 }
 
+TEST_CASE("a lesson asks for what is in sight, and speaks of nothing that only a page has") {
+  for (const std::filesystem::path& path : list_lessons(kLessons)) {
+    const Lesson lesson = read_lesson(path);
+    const TraceFile file(lesson.trace);
+    for (const LessonStep& step : lesson.steps) {
+      CAPTURE(path.string());
+      CAPTURE(step.text);
+      CHECK(step.text.find("Before and After") == std::string::npos);
+      if (!step.ask || step.ask->of != "bad tets") continue;
+      // In a call, and at the visit of a tet, other tets are outlines at most.
+      for (const Call& call : file.calls()) {
+        CHECK(!(call.events.begin < step.at && step.at <= call.events.end));
+      }
+      for (const Visit& visit : file.visits()) {
+        CHECK(!(visit.events.begin < step.at && step.at <= visit.events.end));
+      }
+    }
+  }
+}
+
 TEST_CASE("the first lesson leaves a core of four where edge removal fails") {
   CHECK(degrees_during("1-core.json") == std::vector<std::size_t>{6, 4});
   const TraceFile file(read_lesson(kLessons / "1-core.json").trace);
