@@ -203,10 +203,11 @@ Outcome outcome_of(const Call& call) {
     case Verdict::constrained:
       return Outcome::constrained;
     case Verdict::not_applicable:
+      return Outcome::not_applicable;
     case Verdict::deferred:
       break;
   }
-  return Outcome::other;
+  return Outcome::deferred;
 }
 
 std::string_view outcome_name(Outcome outcome) {
@@ -225,10 +226,12 @@ std::string_view outcome_name(Outcome outcome) {
       return "constrained";
     case Outcome::rejected:
       return "tried and undone";
-    case Outcome::other:
+    case Outcome::not_applicable:
+      return "not applicable";
+    case Outcome::deferred:
       break;
   }
-  return "not applicable";
+  return "deferred, to be tried again";
 }
 
 std::string outcome_text(const Call& call, std::uint64_t position) {

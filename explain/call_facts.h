@@ -58,9 +58,10 @@ enum class Outcome {
   limit,
   constrained,
   rejected,
-  other
+  not_applicable,
+  deferred  ///< to be tried again
 };
-inline constexpr std::size_t kOutcomeCount = static_cast<std::size_t>(Outcome::other) + 1;
+inline constexpr std::size_t kOutcomeCount = static_cast<std::size_t>(Outcome::deferred) + 1;
 Outcome outcome_of(const Call& call);
 /// As legends say it: "nothing better found".
 std::string_view outcome_name(Outcome outcome);

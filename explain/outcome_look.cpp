@@ -52,7 +52,8 @@ std::array<Mark, kOutcomeCount> make_marks() {
   mark(Outcome::constrained) = {{{0.18, 0.5}, {0.82, 0.5}, {0.82, 0.9}, {0.18, 0.9}, {0.18, 0.5}},
                                 shackle()};
   mark(Outcome::rejected) = {{{0.18, 0.18}, {0.82, 0.82}}, {{0.82, 0.18}, {0.18, 0.82}}};
-  mark(Outcome::other) = {{{0.26, 0.86}, {0.74, 0.14}}};
+  mark(Outcome::not_applicable) = {{{0.26, 0.86}, {0.74, 0.14}}};
+  mark(Outcome::deferred) = {{{0.34, 0.16}, {0.34, 0.84}}, {{0.68, 0.16}, {0.68, 0.84}}};
   return marks;
 }
 
@@ -74,8 +75,10 @@ figure::Colour outcome_colour(Outcome outcome) {
       return {60, 120, 200, 255};
     case Outcome::rejected:
       return {205, 110, 60, 255};
-    case Outcome::other:
+    case Outcome::not_applicable:
       return {160, 160, 120, 255};
+    case Outcome::deferred:
+      return {30, 150, 165, 255};
   }
   return {};
 }

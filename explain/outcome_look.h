@@ -14,7 +14,7 @@ namespace tetmend::explain {
 figure::Colour outcome_colour(Outcome outcome);
 
 /// Lines in a square from 0 to 1, y downwards: a check, an arrow back, a dash, a clock, a lock, a
-/// cross, a slash; a ring of one that is under way or cut off.
+/// cross, a slash, two bars; a ring of one that is under way or cut off.
 std::span<const std::vector<figure::Place>> outcome_mark(Outcome outcome);
 
 /// The mark in the colour of the outcome, in a square with its upper left corner there.

@@ -39,8 +39,8 @@ Json numbers_of(std::span<const VertexHandle> vertices) {
 
 std::string_view name_of(Outcome outcome) {
   constexpr std::array<std::string_view, kOutcomeCount> kNames = {
-      "unfinished", "accepted",    "undone",   "no_improvement",
-      "limit",      "constrained", "rejected", "other"};
+      "unfinished",  "accepted", "undone",         "no_improvement", "limit",
+      "constrained", "rejected", "not_applicable", "deferred"};
   return kNames[static_cast<std::size_t>(outcome)];
 }
 

@@ -31,7 +31,7 @@ constexpr double kMark = 7.5;
 struct TreeRow {
   std::uint32_t call = 0;
   unsigned indent = 0;
-  Outcome outcome = Outcome::other;
+  Outcome outcome = {};
   /// Number, what it does, level, degree, quality, verdict.
   std::array<std::string, 6> cells;
 };

@@ -53,6 +53,18 @@ TEST_CASE("a call is under way until its last event") {
   CHECK(root_of(file, 2) == 0);
 }
 
+TEST_CASE("what is to be tried again is not what does not apply") {
+  const auto outcome = [](Verdict verdict) {
+    Call call;
+    call.verdict = verdict;
+    return outcome_of(call);
+  };
+  CHECK(outcome(Verdict::deferred) == Outcome::deferred);
+  CHECK(outcome(Verdict::not_applicable) == Outcome::not_applicable);
+  CHECK(outcome_name(Outcome::deferred) == "deferred, to be tried again");
+  CHECK(outcome_name(Outcome::not_applicable) == "not applicable");
+}
+
 TEST_CASE("what a call works on has the name that its target and its operator give it") {
   const auto name = [](Algorithm algorithm, std::uint8_t target_size) {
     Call call;

@@ -44,7 +44,8 @@ void explain_marks() {
        {Outcome::no_improvement, "nothing better"},
        {Outcome::limit, "limit reached"},
        {Outcome::constrained, "constrained"},
-       {Outcome::other, "not applicable"},
+       {Outcome::not_applicable, "not applicable"},
+       {Outcome::deferred, "deferred"},
        {Outcome::unfinished, "under way"}}};
   const float width = ImGui::GetContentRegionAvail().x / 3;
   for (std::size_t i = 0; i < kMeanings.size(); ++i) {
