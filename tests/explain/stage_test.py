@@ -314,6 +314,28 @@ class Stage(unittest.TestCase):
         finally:
             where.close()
 
+    def test_all_panels_on_a_phone_have_one_bar_and_are_scrolled_by_a_finger_on_the_picture(self) -> None:
+        look = """const isSeen = (e) => e.getClientRects().length > 0;
+            const bars = [...document.querySelectorAll("nav")].filter((e) => isSeen(e) && getComputedStyle(e).position === "sticky");
+            const button = document.getElementById("explore").getBoundingClientRect();
+            const box = bars[0].getBoundingClientRect();
+            return {bars: bars.map((e) => e.className), touch: ["canvas", "flat"].map((id) => getComputedStyle(document.getElementById(id)).touchAction),
+              isIn: button.height > 0 && button.top >= box.top && button.bottom <= box.bottom && button.right <= box.right, low: innerHeight - box.bottom,
+              focus: document.activeElement.id, wide: document.documentElement.scrollWidth};"""
+        where = window(390, 844)
+        try:
+            where.open(f"{PAGES[1].as_uri()}#lesson=4")
+            where.run("const button = document.getElementById('explore'); button.focus(); button.click()")
+            self.assertEqual(where.run(look), {"bars": ["events"], "touch": ["pan-y", "pan-y"], "isIn": True, "low": 0, "focus": "explore", "wide": 390})
+            where.run("document.getElementById('explore').click()")
+            self.assertEqual(where.run("return location.hash"), "#lesson=4")
+            back = where.run("return [...document.querySelectorAll('nav')].filter((e) => e.getClientRects().length > 0).map((e) => [e.className, ...[...e.querySelectorAll('button')].map((b) => b.id)])")
+            self.assertEqual([bar for bar in back if bar[0] == "bar"], [["bar", "lesson-back", "explore", "lesson-next"]])
+            self.assertNotIn("events", [bar[0] for bar in back])
+            self.quiet(where, "one bar")
+        finally:
+            where.close()
+
     def test_the_colours_of_a_ring_are_named_below_it(self) -> None:
         for width, height, _ in SIZES.values():
             where = window(width, height)

@@ -19,9 +19,25 @@ function tellParent(n) {
   window.parent.postMessage({from: "tetmend", lesson: lesson.title, step: n + 1, steps: lesson.steps.length, ...score()}, "*");
 }
 
+const isNarrow = matchMedia("(max-width: 40rem)");
+
 function setMode(mode) {
   document.body.dataset.mode = mode;
   byId("explore").setAttribute("aria-pressed", String(mode === "explore"));
+  settleBars();
+}
+
+/** A phone has room for one bar: that of the events has the way back to the lesson then. */
+function settleBars() {
+  const button = byId("explore");
+  const isOne = !isOnStage() && isNarrow.matches;
+  byId("bar").hidden = !lesson || isOne;
+  document.body.dataset.bars = lesson && !isOne ? 2 : 1;
+  const place = document.querySelector(lesson && isOne ? ".events .place" : "#bar");
+  if (button.parentElement === place) return;
+  const hadFocus = document.activeElement === button;
+  place.insertBefore(button, place.querySelector("#lesson-next"));
+  if (hadFocus) button.focus();
 }
 
 /** Marks the panels of a step; a panel that has nothing to show there is left out. */

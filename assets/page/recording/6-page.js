@@ -203,7 +203,7 @@ function showPlace(step, cells) {
   byId("count").title = `after ${step.position} events of the trace`;
   const isFirst = place.step === 0 && place.cell === 0;
   const isLast = place.step === steps.length - 1;
-  for (const button of document.querySelectorAll(".events button")) button.disabled = button.dataset.step.startsWith("back") ? isFirst : isLast;
+  for (const button of document.querySelectorAll(".events [data-step]")) button.disabled = button.dataset.step.startsWith("back") ? isFirst : isLast;
   const hash = isOnStage() ? `#lesson=${place.lesson + 1}` : `#step=${step.position}${place.cell ? `.${place.cell}` : ""}`;
   const hasAddress = location.protocol !== "about:";  // a page within a page may have none
   if (hasAddress && location.hash !== hash) history.replaceState(null, "", hash);
@@ -383,10 +383,9 @@ function describeOrigin() {
   if (recording.deepest !== undefined) parts.push(`calls with more than ${recording.deepest} calls around them are one step each, to keep the page small`);
   byId("origin").textContent = parts.join(" \u00b7 ");
   // On a phone it would be three lines before the picture.
-  const narrow = matchMedia("(max-width: 40rem)");
   const house = byId("origin").parentElement;
-  const settle = () => (narrow.matches ? document.querySelector("main") : house).append(byId("origin"));
-  narrow.addEventListener("change", settle);
+  const settle = () => (isNarrow.matches ? document.querySelector("main") : house).append(byId("origin"));
+  isNarrow.addEventListener("change", settle);
   settle();
   const heading = document.querySelector("h1");
   heading.replaceChildren(...withIndices(heading.textContent));
@@ -397,12 +396,13 @@ function begin() {
   setTheme(themeOf(wantedTheme()));
   byId("text-size").setAttribute("aria-pressed", String(kept.size === "large"));
   describeOrigin();
-  byId("lesson").hidden = byId("bar").hidden = !lesson;
+  byId("lesson").hidden = !lesson;
+  isNarrow.addEventListener("change", settleBars);
   setMode(lesson ? "lesson" : "explore");
   if (lesson) place.step = stepAfter(lesson.steps[0].at);
   byId("slider").max = steps.length - 1;
   byId("slider").addEventListener("input", () => goTo(Number(byId("slider").value)));
-  for (const button of document.querySelectorAll(".events button")) button.addEventListener("click", () => move(button.dataset.step));
+  for (const button of document.querySelectorAll(".events [data-step]")) button.addEventListener("click", () => move(button.dataset.step));
   for (const button of document.querySelectorAll("[data-when]")) button.addEventListener("click", () => showWhen(button.dataset.when));
   byId("lesson-next").addEventListener("click", () => moveInLesson(1));
   byId("lesson-back").addEventListener("click", () => moveInLesson(-1));
