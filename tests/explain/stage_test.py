@@ -76,6 +76,7 @@ for (const [name, selector] of Object.entries(panels)) {
     if (e.childElementCount === 0 && e.textContent.trim() && parseFloat(getComputedStyle(e).fontSize) < 8.5) bad.push(`${name}: text of ${getComputedStyle(e).fontSize}`);
   }
 }
+if (isSeen(document.getElementById("names")) && overflows(document.getElementById("names"))) bad.push("a name is cut");
 const size = (selector) => { const r = document.querySelector(selector).getBoundingClientRect(); return Math.min(r.width, r.height); };
 if (shown.includes("picture") && size("#stage") < 95) bad.push(`picture of ${size("#stage")}`);
 if (shown.includes("ring") && size("#ring") < 95) bad.push(`ring of ${size("#ring")}`);

@@ -121,7 +121,8 @@ function makeScene(step, cell, when, apart, showAround) {
     if (call.shell) {
       named.set(a, {text: `${a} = a`, end: true});
       named.set(b, {text: `${b} = b`, end: true});
-      call.shell.ring.forEach((vertex) => { if (!named.has(vertex)) named.set(vertex, {text: `${vertex}`}); });
+      const {ring} = stageOfRing(call, when === "before" ? call.begin : step.position).shell;
+      ring.forEach((vertex, i) => named.set(vertex, {text: `${vertex}`, ...named.get(vertex), corner: i + 1}));
     }
   }
   const visited = tetVisited(step);

@@ -154,6 +154,39 @@ function hideCovered(names) {
   }
 }
 
+/** The place moved inside of 0 to `size` by `half`; null far outside. */
+function within(place, half, size) {
+  const far = 30;
+  return place < -far || place > size + far ? null : Math.min(Math.max(place, half), size - half);
+}
+
+/** Where names stand, in letters of `em` pixels: at their vertices, or moved away from each other at the end of a line. Corners of the
+    ring are p_i, too, unless that leaves no room for another name. */
+function placeNames(scene, camera, size, em) {
+  const place = (hasCorners) => {
+    const names = scene.names.map((name) => {
+      const corner = hasCorners ? name.corner : undefined;
+      const [x, y, depth] = camera.project(name.place, size);
+      const letters = name.text.length + (corner ? 3.5 + 0.6 * `${corner}`.length : 0);
+      // Whole where its place is near the border; gone where that is far outside, as of a caller's edge.
+      const half = [0.55 * em + 0.32 * em * letters, 0.8 * em];
+      const at = [within(x, half[0], size.width), within(y, half[1], size.height)];
+      return {...name, corner, depth, half, at, from: [x, y], hidden: at.includes(null)};
+    });
+    spread(names.filter((name) => !name.hidden && !name.quiet), size);
+    return names;
+  };
+  const count = (names) => names.filter((name) => name.hidden).length;
+  const farthest = 4 * em;
+  const isFar = (name) => !name.hidden && Math.hypot(name.at[0] - name.from[0], name.at[1] - name.from[1]) > farthest;
+  const plain = place(false);
+  const full = place(true);
+  const names = count(full) > count(plain) || full.some(isFar) ? plain : full;
+  hideCovered(names);
+  for (const name of names) name.isLed = !name.hidden && !name.quiet && [0, 1].some((axis) => Math.abs(name.at[axis] - name.from[axis]) > name.half[axis]);
+  return names;
+}
+
 /** The scene as SVG, with the names. */
 function drawFlat(svg, scene, camera, size) {
   svg.setAttribute("viewBox", `0 0 ${size.width} ${size.height}`);
@@ -175,15 +208,14 @@ function drawFlat(svg, scene, camera, size) {
     }
   }
   const em = Math.max(size.height / 30, 11);
-  const names = scene.names.map((name) => ({...name, depth: camera.project(name.place, size)[2], at: camera.project(name.place, size).slice(0, 2), half: [3 + 0.32 * em * name.text.length, 0.6 * em]}));
-  const isInside = ([x, y]) => x >= 0 && y >= 0 && x <= size.width && y <= size.height;
-  spread(names.filter((name) => !name.quiet && isInside(name.at)), size);
-  hideCovered(names);
-  for (const name of names) {
+  for (const name of placeNames(scene, camera, size, em)) {
     if (name.hidden) continue;
     const [x, y] = name.at;
-    parts.push(svgElement("text", {x, y, "text-anchor": "middle", "dominant-baseline": "central", "font-weight": name.quiet ? 400 : 700, "font-size": em,
-      fill: inCss(colourOf(name.end ? "edge" : "ink")), stroke: inCss(colourOf("card")), "stroke-width": 3, "paint-order": "stroke"}, name.text));
+    if (name.isLed) parts.push(svgElement("line", {x1: name.from[0], y1: name.from[1], x2: x, y2: y, stroke: inCss(colourOf("quiet")), "stroke-width": 1}));
+    const text = svgElement("text", {x, y, "text-anchor": "middle", "dominant-baseline": "central", "font-weight": name.quiet ? 400 : 700, "font-size": em,
+      fill: inCss(colourOf(name.end ? "edge" : "ink")), stroke: inCss(colourOf("card")), "stroke-width": 3, "paint-order": "stroke"}, name.text);
+    if (name.corner) text.append(" = ", svgElement("tspan", {"font-style": "italic"}, "p"), svgElement("tspan", {"font-size": "75%", dy: "0.25em"}, `${name.corner}`));
+    parts.push(text);
   }
   svg.replaceChildren(...parts);
 }

@@ -16,28 +16,22 @@ if (!painter) {
 
 // --- the picture ---
 
-/** The place moved inside of 0 to `size` by `half`; null far outside. */
-function within(place, half, size) {
-  const far = 30;
-  return place < -far || place > size + far ? null : Math.min(Math.max(place, half), size - half);
-}
-
 function drawPicture() {
   const size = {width: stage.clientWidth, height: stage.clientHeight};
   if (size.width === 0 || size.height === 0) return;
   if (painter && !painter.gl.isContextLost()) painter.draw(scene, camera, size, Math.min(window.devicePixelRatio, 3));
   else drawFlat(flat, scene, camera, size);
-  const names = scene.names.map((name) => {
-    const [x, y, depth] = camera.project(name.place, size);
-    // Whole where its place is near the border; gone where that is far outside, as of a caller's edge.
-    const half = [8 + 5 * name.text.length, 12];
-    const at = [within(x, half[0], size.width), within(y, half[1], size.height)];
-    return {...name, depth, half, at, hidden: at.includes(null)};
+  const em = parseFloat(getComputedStyle(document.documentElement).fontSize);
+  const names = placeNames(scene, camera, size, em).sort((x, y) => x.depth - y.depth);
+  const leaders = names.filter((name) => name.isLed).map(({from, at}) => {
+    const leader = make("i", {class: "leader"});
+    const by = [at[0] - from[0], at[1] - from[1]];
+    Object.assign(leader.style, {left: `${from[0]}px`, top: `${from[1]}px`, width: `${Math.hypot(...by)}px`, transform: `rotate(${Math.atan2(by[1], by[0])}rad)`});
+    return leader;
   });
-  spread(names.filter((name) => !name.hidden && !name.quiet), size);
-  hideCovered(names);
-  byId("names").replaceChildren(...names.sort((x, y) => x.depth - y.depth).map((name) => {
+  byId("names").replaceChildren(...leaders, ...names.map((name) => {
     const span = make("span", {"data-vertex": name.vertex, class: `${name.end ? "end" : ""} ${name.quiet || name.hidden ? "quiet" : ""}`}, name.text);
+    if (name.corner) span.append(" = ", make("i", {}, "p"), make("sub", {}, `${name.corner}`));
     span.hidden = name.hidden;
     span.style.left = `${name.at[0]}px`;
     span.style.top = `${name.at[1]}px`;
