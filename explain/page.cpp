@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "explain/page.h"
 
+#include <array>
 #include <regex>
 
 #include <fmt/format.h>
@@ -10,6 +11,7 @@
 #include "explain/page_text.h"
 #include "explain/question.h"
 #include "explain/stepper.h"
+#include "figure/colour.h"
 #include "kernel/error.h"
 
 namespace tetmend::explain {
@@ -68,6 +70,25 @@ std::string links_of(const PageRequest& request) {
   return fmt::format("<nav class=\"links\" aria-label=\"Lessons\">\n{}</nav>\n", links);
 }
 
+/// Variables of the style sheet: parts of a shell look as in windows and figures. The dark page may
+/// have some of them lighter.
+std::string colours_of_shells() {
+  constexpr std::array<std::pair<std::string_view, figure::Colour>, 8> kColours = {
+      {{"edge", figure::kSupportingEdgeColour},
+       {"visited", figure::kSelectionColour},
+       {"skirt", figure::kSkirtColour},
+       {"chord", figure::kChordColour},
+       {"core", figure::kCoreColour},
+       {"cell", figure::kCellColour},
+       {"face", figure::kFaceToRemoveColour},
+       {"caller", figure::kGhostColour}}};
+  std::string style = ":root {";
+  for (const auto& [name, c] : kColours) {
+    style += fmt::format(" --{}: #{:02x}{:02x}{:02x};", name, c.red, c.green, c.blue);
+  }
+  return style + " }\n";
+}
+
 std::string html_of(const TraceFile& file, Replay& replay, const PageRequest& request,
                     const RecordingRange& range) {
   Json data = record(file, replay, range);
@@ -81,7 +102,7 @@ std::string html_of(const TraceFile& file, Replay& replay, const PageRequest& re
                                {"@ABOUT@", escaped(about)},
                                {"@PROGRAM@", escaped(request.program)},
                                {"@LINKS@", links_of(request)},
-                               {"@STYLE@", std::string(page_style())},
+                               {"@STYLE@", colours_of_shells() + std::string(page_style())},
                                {"@SCRIPT@", std::string(page_script())},
                                {"@RECORDING@", in_script(data)}});
 }

@@ -58,5 +58,7 @@ inline constexpr Colour kLinkFaceColour{60, 150, 230, 60};
 inline constexpr Colour kChordColour{0, 150, 136, 255};
 inline constexpr Colour kCoreColour{235, 168, 20, 255};
 inline constexpr Colour kCellColour{112, 48, 190, 255};  ///< of the tables of Algorithm 2
+inline constexpr Colour kFaceToRemoveColour{112, 48, 205, 255};
+inline constexpr Colour kGhostColour{100, 110, 125, 255};  ///< of the shell of a caller
 
 }  // namespace tetmend::figure

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "explain/call_study.h"
+#include "figure/colour.h"
 #include "viewer/debugger/explained.h"
 #include "viewer/mesh/selection.h"
 
@@ -40,7 +41,7 @@ Selection target_in(const TetMesh& mesh, const Call& call, std::span<const TetHa
 /// The tets of the mesh that the call found or made, each once.
 std::vector<TetHandle> tets_of(const TetMesh& mesh, const CallStudy& study);
 
-inline constexpr Colour kGhostColour{100, 110, 125, 255};
-inline constexpr Colour kFaceToRemoveColour{112, 48, 205, 255};
+using figure::kFaceToRemoveColour;
+using figure::kGhostColour;
 
 }  // namespace tetmend::viewer

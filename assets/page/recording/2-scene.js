@@ -84,7 +84,7 @@ function makeScene(step, cell, when, apart, showAround) {
     const shrunk = at.map((p) => mix(p, centre, apart));
     const colour = colourOfQuality(quality);
     for (const face of FACES) scene.faces.push({corners: face.map((i) => shrunk[i]), colour, opacity: full.length > 60 ? 0.85 : 0.5});
-    for (const [i, j] of EDGES) scene.lines.push({from: shrunk[i], to: shrunk[j], colour: colourOf("skirt"), width: 1.1, opacity: 0.55});
+    for (const [i, j] of EDGES) scene.lines.push({from: shrunk[i], to: shrunk[j], colour: colourOf("wire"), width: 1.1, opacity: 0.55});
     if (quality < 1) scene.kinds.add("bad");
   }
   if (showAround && around.length > 0) {
@@ -128,7 +128,8 @@ function makeScene(step, cell, when, apart, showAround) {
   const visited = tetVisited(step);
   if (visited) scene.visited = full.find((tet) => tets[tet].corners.every((corner) => visited.includes(points[corner].vertex))) ?? null;
   if (scene.visited !== null) {
-    visited.forEach((v, i) => visited.slice(i + 1).forEach((w) => line(v, w, "visited", 3.5)));
+    // Yellow on a light ground is seen by its dark rim, which no other line has.
+    for (const [kind, width] of [["wire", 6.5], ["visited", 3.5]]) visited.forEach((v, i) => visited.slice(i + 1).forEach((w) => line(v, w, kind, width)));
     visited.forEach((vertex) => named.set(vertex, {text: `${vertex}`, end: true}));
   }
   const nameAll = full.length <= 60 ? [...full, ...scene.shellOfCaller] : scene.shellOfCaller;
@@ -158,8 +159,11 @@ function markCaller(scene, call, places) {
   const isThere = (vertex) => scene.shellOfCaller.some((tet) => tets[tet].corners.some((corner) => points[corner].vertex === vertex));
   if (!call.face || !isThere(call.face[2])) return;
   const corners = call.face.map((v) => places.get(v));
-  scene.faces.push({corners, colour: colourOf("face"), opacity: 0.45, flat: true});
-  corners.forEach((from, i) => scene.lines.push({from, to: corners[(i + 1) % 3], colour: colourOf("face"), width: 2, opacity: 1, top: true}));
+  // Hatched: a veil would change its colour over red tets.
+  const line = (from, to, width) => scene.lines.push({from, to, colour: colourOf("face"), width, opacity: 1, top: true});
+  corners.forEach((from, i) => line(from, corners[(i + 1) % 3], 2.5));
+  const stripes = 9;
+  for (let n = 1; n < stripes; ++n) line(mix(corners[0], corners[1], n / stripes), mix(corners[0], corners[2], n / stripes), 1.4);
   scene.kinds.add("face");
   scene.faceToRemove = call.face;
 }

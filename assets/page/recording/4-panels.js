@@ -91,7 +91,7 @@ class RingDrawing {
     const middle = scale(core.map(([i]) => [...this.at(i), 0]).reduce(add), 1 / core.length).slice(0, 2);
     for (const [i, j, quality] of core) {
       this.area([middle, this.at(i), this.at(j)], qualityFill(quality), 0.7);
-      this.stroke(middle, this.at(i), "skirt", 1, {opacity: 0.6});
+      this.stroke(middle, this.at(i), "edge", 1, {opacity: 0.6});
       const side = mix([...this.at(i), 0], [...this.at(j), 0], 0.5);
       this.label(mix([...middle, 0], side, 0.7), three(quality));
     }
@@ -326,12 +326,14 @@ const LEGEND = [["visited", "tet t that the pass turns to", 3.5, ""], ["edge", "
   ["ancestor", "edges that the callers remove", 4, "5 4"], ["cell", "the cell of the tables", 4, ""], ["ghost", "tets around", 1.2, ""]];
 
 // Short: for the stage of a lesson, below the ring. The rest is seen in the picture alone, and for windows that leave out its legend.
-const RING_LEGEND = [["chord", "chord", 3, ""], ["core", "side of the core", 5, ""], ["cell", "cell of the tables", 4, ""]];
+const RING_LEGEND = [["skirt", "ring", 2.5, ""], ["chord", "chord", 3, ""], ["core", "side of the core", 5, ""], ["cell", "cell of the tables", 4, ""]];
 const PICTURE_LEGEND = [["face", "face f to remove", 9, ""], ["ancestor", "edges of callers", 4, "5 4"]];
 
 function legendLine([kind, text, width, dashes]) {
   const svg = svgElement("svg", {viewBox: "0 0 22 9", "aria-hidden": "true"});
-  svg.append(svgElement("line", {x1: 1, y1: 4.5, x2: 21, y2: 4.5, stroke: inCss(colourOf(kind)), "stroke-width": width, "stroke-dasharray": dashes}));
+  if (kind === "visited") svg.append(svgElement("line", {x1: 0, y1: 4.5, x2: 22, y2: 4.5, stroke: inCss(colourOf("wire")), "stroke-width": 2 * width}));
+  if (kind === "face") for (let x = -6; x < 22; x += 4) svg.append(svgElement("line", {x1: x, y1: 9, x2: x + 8, y2: 0, stroke: inCss(colourOf(kind)), "stroke-width": 1.4}));
+  svg.append(svgElement(kind === "face" ? "g" : "line", {x1: 1, y1: 4.5, x2: 21, y2: 4.5, stroke: inCss(colourOf(kind)), "stroke-width": width, "stroke-dasharray": dashes}));
   return make("li", {"data-kind": kind}, svg, text);
 }
 
@@ -343,7 +345,7 @@ function showLegend(scene, ringKinds) {
     return svg;
   };
   if (scene.kinds.has("caller")) items.push(make("li", {}, swatch([colourOf("caller")]), `shell of the caller, ${scene.caller.join(" ")}`));
-  if (scene.kinds.has("face")) items.push(make("li", {}, swatch([colourOf("face")]), `face f to remove, ${scene.faceToRemove.join(" ")}`));
+  if (scene.kinds.has("face")) items.push(legendLine(["face", `face f to remove, ${scene.faceToRemove.join(" ")}`, 0, ""]));
   if (scene.faces.length > 0) items.push(make("li", {}, swatch([BAD]), "bad tet, q < 1"), make("li", {}, swatch(EMBER.slice(3)), "quality q, from 1, which just meets the goal, to 2"));
   byId("legend").replaceChildren(...items);
   const ofPicture = PICTURE_LEGEND.filter(([kind]) => scene.kinds.has(kind)).map(legendLine);

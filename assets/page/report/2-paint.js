@@ -81,7 +81,7 @@ class ShapePainter {
   drawView(when, look) {
     const {gl} = this;
     const {faces, edges} = this.tets[when];
-    const [surface, inside, bad, ink] = ["surface", "inside", "bad", "skirt"].map(colourOf);
+    const [surface, inside, bad, ink] = ["surface", "inside", "bad", "wire"].map(colourOf);
     gl.depthMask(true);
     if (look.isSolid) this.fillSurface(look, surface, inside, [1, 1]);
     this.fill(faces, bad, bad, [1, 1]);
@@ -142,7 +142,7 @@ function drawFlatShape(svg, shape, views, look, camera, size) {
         if (isThere(places)) parts.push(svgElement("polygon", {points: places.map(at).join(" "), ...attributes}));
       }
     };
-    add(shape.edges, 2, {fill: "none", stroke: inCss(colourOf("skirt")), "stroke-width": 0.7});
+    add(shape.edges, 2, {fill: "none", stroke: inCss(colourOf("wire")), "stroke-width": 0.7});
     add(shape.tets[when].faces, 3, {fill: inCss(colourOf("bad")), "fill-opacity": 0.6});
     return parts;
   });
