@@ -286,6 +286,26 @@ class Stage(unittest.TestCase):
         finally:
             where.close()
 
+    def test_a_phone_can_read_tables_and_ring(self) -> None:
+        look = """return [1, 4].map((n) => {
+            goToLesson(n);
+            const ring = document.getElementById("ring").getBoundingClientRect();
+            const inRing = [...document.querySelectorAll("#ring text")].filter((e) => ["corner", "place"].includes(e.dataset.kind));
+            const outside = inRing.map((e) => e.getBoundingClientRect()).filter((r) => r.left < ring.left - 1 || r.right > ring.right + 1 || r.top < ring.top - 1 || r.bottom > ring.bottom + 1);
+            const sizes = inRing.map((e) => parseFloat(e.getAttribute("font-size")) * Math.min(ring.width, ring.height) / 2);
+            const texts = [...document.querySelectorAll(".tables td, .tables th, .code li")].filter((e) => e.getClientRects().length > 0);
+            return [Math.min(...sizes), Math.min(...texts.map((e) => parseFloat(getComputedStyle(e).fontSize))), outside.length];
+        });"""
+        where = window(390, 844)
+        try:
+            where.open((LECTURES / "4-tables.html").as_uri())
+            for ring, text, outside in where.run(look):
+                self.assertGreaterEqual(ring, 9)
+                self.assertGreaterEqual(text, 9)
+                self.assertEqual(outside, 0)
+        finally:
+            where.close()
+
     def test_the_index_is_as_wide_as_the_window_and_has_indices(self) -> None:
         for width, height, _ in SIZES.values():
             where = window(width, height)

@@ -5,8 +5,11 @@ const three = (quality) => quality.toFixed(3);
 
 // --- the ring ---
 
-/** Places of the ring in the unit circle, the first on top, counterclockwise; SVG has y downwards. */
-function ringPlace(shell, i, radius = 0.74) {
+const TEXT_OF_RING = 0.078;  // of its numbers, in halves of the drawing, where there is room
+let textOfRing = TEXT_OF_RING;
+
+/** Places of the ring in the unit circle, the first on top, counterclockwise; SVG has y downwards. Large numbers take room from it. */
+function ringPlace(shell, i, radius = 0.74 - 2 * Math.max(textOfRing - TEXT_OF_RING, 0)) {
   const angle = 2 * Math.PI * i / shell.ring.length;
   return [-radius * Math.sin(angle), -radius * Math.cos(angle)];
 }
@@ -20,6 +23,15 @@ function stageOfRing(call, position) {
 
 const qualityFill = (quality) => inCss(colourOfQuality(quality));
 
+/** In a small drawing numbers are larger, as long as there is room for all: on a phone they can be read. */
+function chooseTextOfRing(svg, shell) {
+  const m = shell.ring.length;
+  if (m > 10) return 0.058;
+  const readable = 11.5;  // pixels
+  const half = Math.min(svg.clientWidth, svg.clientHeight) / 2;
+  return half > 0 ? Math.min(Math.max(TEXT_OF_RING, readable / half), m > 7 ? 0.09 : 0.125) : TEXT_OF_RING;
+}
+
 class RingDrawing {
   constructor(svg, shell) {
     this.svg = svg;
@@ -27,8 +39,7 @@ class RingDrawing {
     this.parts = [];
     this.labels = [];
     this.kinds = new Set();  // of lines
-    const m = shell.ring.length;
-    this.text = m > 10 ? 0.058 : 0.078;
+    textOfRing = this.text = chooseTextOfRing(svg, shell);
   }
 
   at(i) { return ringPlace(this.shell, i); }
@@ -46,7 +57,7 @@ class RingDrawing {
   }
 
   label([x, y], text, strong, kind = "number") {
-    this.labels.push(svgElement("text", {x, y, "text-anchor": "middle", "dominant-baseline": "central", "font-size": strong ? 1.25 * this.text : this.text,
+    this.labels.push(svgElement("text", {x, y, "text-anchor": "middle", "dominant-baseline": "central", "font-size": strong ? 1.25 * this.text : kind === "number" ? Math.min(this.text, 0.098) : this.text,
       "font-weight": strong ? 700 : 600, fill: inCss(colourOf("ink")), stroke: inCss(colourOf("card")), "stroke-width": 0.022, "paint-order": "stroke", "data-kind": kind}, text));
   }
 
@@ -60,7 +71,7 @@ class RingDrawing {
   outline() {
     this.shell.ring.forEach((vertex, i) => {
       this.stroke(this.at(i), this.at((i + 1) % this.shell.ring.length), "skirt", 3);
-      this.corner(ringPlace(this.shell, i, 0.9), vertex, i);
+      this.corner(ringPlace(this.shell, i, 0.9 - 1.5 * Math.max(this.text - TEXT_OF_RING, 0)), vertex, i);
     });
   }
 

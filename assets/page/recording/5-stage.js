@@ -71,7 +71,8 @@ function fitStage() {
   const text = byId("lesson");
   const isColumn = text.getBoundingClientRect().bottom > byId("bar").getBoundingClientRect().top - 2;
   const isLarge = document.documentElement.dataset.size === "large";
-  fit("--text", [...(isColumn && !isLarge ? [1.3, 1.15] : []), ...sizes], () => overflows(text) || overflows(byId("lesson-text")) || (!isColumn && text.offsetHeight > 0.42 * innerHeight));
+  const isTextCut = () => overflows(text) || overflows(byId("lesson-text")) || (!isColumn && text.offsetHeight > 0.42 * innerHeight);
+  fit("--text", [...(isColumn && !isLarge ? [1.3, 1.15] : []), ...sizes], isTextCut);
   const main = document.querySelector("main");
   const cards = [...main.querySelectorAll(".focused")];
   const isWide = (card) => [...card.querySelectorAll("table")].some((table) => table.getBoundingClientRect().right > card.getBoundingClientRect().right - 6);
@@ -83,11 +84,21 @@ function fitStage() {
   const hasLines = questionAt(place.lesson)?.kind === "line" && !answers.has(place.lesson);
   for (const finger of hasLines ? ["44px", "38px", "32px", "28px", "24px"] : ["24px"]) {
     document.body.style.setProperty("--finger", finger);
-    for (const [least, wrap] of [["max(10rem, 26vh)", "no"], ["8rem", "no"], ["8rem", "yes"]]) {
+    const all = finger === "24px" ? [...more, ...sizes] : sizes.slice(0, 6);
+    const readable = all.filter((size) => size > 0.69);  // nine pixels on a phone
+    const rooms = [["max(10rem, 26vh)", "no"], ["8rem", "no"], ["8rem", "yes"]];
+    const fitIn = ([least, wrap], text) => {
       document.body.style.setProperty("--least", least);
       document.body.dataset.wrap = wrap;
-      if (fit("--fit", finger === "24px" ? [...more, ...sizes] : sizes.slice(0, 6), isCut)) return;
+      return fit("--fit", text, isCut);
+    };
+    if (fitIn(rooms[0], readable)) return;
+    const before = document.body.style.getPropertyValue("--text");
+    if (!isColumn && before > 0.88) {  // the text gives way first
+      if (fit("--text", [0.94, 0.88], () => !fitIn(rooms[0], readable))) return;
+      document.body.style.setProperty("--text", before);
     }
+    if (rooms.some((room) => fitIn(room, all))) return;
   }
 }
 
@@ -163,7 +174,9 @@ function askForLine(n, ask) {
 /** A number of four digits, with p_i below it, within the circle that is pressed. */
 function fitIntoSpots(svg, shell) {
   const fit = (kind, size, down) => svg.querySelectorAll(`text[data-kind=${kind}]`).forEach((text, i) => {
-    text.setAttribute("y", ringPlace(shell, i, 0.9)[1] + down);
+    const [x, y] = ringPlace(shell, i, 0.9);
+    text.setAttribute("x", x);
+    text.setAttribute("y", y + down);
     text.setAttribute("font-size", Math.min(size, 0.2 / text.textContent.length));
     text.setAttribute("stroke", "none");
   });
@@ -216,16 +229,16 @@ function askForChord(n, ask, shell) {
   fitIntoSpots(svg, shell);
 }
 
-function askInPanels(n, call, position) {
+/** Once more where there are corners to be pressed, as the ring was drawn anew. */
+function askInRing(n, call, position) {
   const ask = isOnStage() ? questionAt(n) : null;
   byId("ring").setAttribute("role", "img");
-  if (ask?.kind === "line") askForLine(n, ask);
   if (ask?.kind === "chord" && call?.shell) askForChord(n, ask, stageOfRing(call, position).shell);
 }
 
 // --- the bar ---
 
-function showLesson(step, call) {
+function showLesson(step, call, drawRing) {
   if (!lesson) return;
   if (!isOnStage()) place.lesson = lessonStep(step.position);
   const n = place.lesson;
@@ -236,11 +249,13 @@ function showLesson(step, call) {
   byId("lesson-back").disabled = n <= 0 && (isOnStage() || step.position <= lesson.steps[0].at);
   byId("lesson-next").disabled = n === lesson.steps.length - 1 && !(isOnStage() && byId("to-next"));
   showQuestion(n);
-  askInPanels(n, call, step.position);
   if (isOnStage()) {
+    if (questionAt(n)?.kind === "line") askForLine(n, questionAt(n));
     chooseFocus(n);
     fitStage();
+    drawRing();  // its text has the size that the room asks for
   }
+  askInRing(n, call, step.position);
   tellParent(n);
 }
 

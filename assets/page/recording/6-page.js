@@ -148,7 +148,7 @@ function show(isSudden = false) {
   main.classList.toggle("no-tables", Boolean(call?.shell) && byId("tables-card").hidden);
   showTree(step, enter, show);
   showLegend(scene, ringKinds);
-  showLesson(step, call);
+  showLesson(step, call, () => showRing(call, step.position, cell));
   showPlace(step, filling ? total : 0);
   letKeysScroll();
   for (const button of document.querySelectorAll("[data-when]")) button.setAttribute("aria-pressed", String(button.dataset.when === view.when));
