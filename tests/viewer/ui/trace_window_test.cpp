@@ -122,7 +122,7 @@ TEST_CASE("what the mouse is on is pointed at: in tree, icicles, breadcrumb, rin
                                      {550, 748, {0, 1}},   // the same call in the icicles
                                      {1060, 302, {1, 5}},  // the second crumb
                                      {134, 484, {0}},      // the name of a corner of the ring
-                                     {627, 369, {0}},      // the vertex in the picture
+                                     {616, 398, {0}},      // the vertex in the picture
                                      {700, 150, {}}};      // nothing
   for (const Place& place : places) {
     CAPTURE(place.x);
