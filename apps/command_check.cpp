@@ -217,6 +217,9 @@ int run_check(CheckCommand& options, const pieces::ArrayFiles* parts) {
         "nothing to check: give a threshold, --for PRESET or a second mesh (see tetmend check "
         "--help)");
   }
+  if (!wanted.surface.empty() && options.improved.empty()) {
+    throw UsageError("--surface: give the mesh that it became, too");
+  }
   const std::vector<Fact> facts = facts_of(options, parts);
   print(options, facts, all_hold(facts));
   return all_hold(facts) ? kSuccess : kGoalMissed;

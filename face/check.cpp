@@ -716,7 +716,7 @@ std::vector<Fact> same_walls(std::vector<Wall> then, std::vector<Wall> now,
           same_or_near("walls", "faces between two labels", inner_then, inner_now, tolerance)};
 }
 
-/// @throws OptionError for a surface that is none
+/// @throws OptionError for a surface that is none, or a length that is hardly meant
 face::NearTolerance tolerance_around(const MeshData& mesh, const Options& run) {
   constexpr double kFar = std::numeric_limits<double>::infinity();
   face::NearTolerance tolerance{face::SurfaceTolerance(run), Point::Constant(kFar),
@@ -727,6 +727,8 @@ face::NearTolerance tolerance_around(const MeshData& mesh, const Options& run) {
       tolerance.high = tolerance.high.cwiseMax(mesh.points[v]);
     }
   }
+  const Point diagonal = tolerance.high - tolerance.low;
+  if (!mesh.tets.empty()) tolerance.surface.check_length(diagonal.norm());
   return tolerance;
 }
 

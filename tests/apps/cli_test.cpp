@@ -414,6 +414,11 @@ TEST_CASE("check holds a mesh to thresholds, presets and its input") {
   CHECK(json["facts"][1]["name"] == "non_orthogonality");
   CHECK(json["facts"][1]["wanted"] == 70);
   CHECK(run_program({"check", in}).status == 2);
+  CHECK(run_program({"check", in, out, "--surface", "far"}).status == 2);
+  CHECK(run_program({"check", in, "--surface", "1%"}).status == 2);
+  const Outcome unit = run_program({"check", in, out, "--surface", "5"});
+  CHECK(unit.status == 2);
+  CHECK(contains(unit.err, "did you mean 5%?"));
   CHECK(run_program({"check", in, "--for", "excel"}).status == 2);
   CHECK(run_program({"check", in, "--measure", "mean_ratio"}).status == 2);
   CHECK(run_program({"check", "no.mesh", "--no-inverted"}).status == 1);

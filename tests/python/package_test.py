@@ -446,6 +446,11 @@ def test_check_is_that_of_the_command_line(tmp_path, materials, words):
     compared = tetmend.check(MATERIALS, tmp_path / "better.mesh")
     assert compared and compared.status == 0 and "surface" in [fact.name for fact in compared.facts]
     assert tetmend.check(tmp_path / "better.mesh", MATERIALS).status == 3
+    moved = tetmend.improve(materials, schedule="surface", surface="5%").mesh
+    assert not tetmend.check(materials, moved)
+    assert tetmend.check(materials, moved, surface="5%")
+    with pytest.raises(ValueError, match="surface: 'far' is none of"):
+        tetmend.check(materials, moved, surface="far")
     with pytest.raises(ValueError, match="nothing to check"):
         tetmend.check(materials)
     with pytest.raises(ValueError, match="preset"):
