@@ -171,7 +171,7 @@ void tell_progress(const LiveProgress& run) {
   if (run.state == LiveState::paused && run.last) {
     const LiveCall& call = *run.last;
     std::string text = fmt::format("call {}, {}{}", call.number, call.is_inside ? "in it " : "",
-                                   call.operator_name);
+                                   spaced(call.operator_name));
     if (call.is_inside) text += fmt::format(" on level {}", call.level);
     if (call.is_under_way) {
       text += " begins";
