@@ -708,17 +708,16 @@ void write_polyhedron(LessonWriter& lesson) {
   lesson.ask(Ask::Kind::accepted, "Will it find a better way to fill one?");
   lesson.say(
       replaced,
-      fmt::format("With {} vertices there is a better one. {} tets have given way to those in "
-                  "sight, which fill the same polyhedron: its outer faces and its vertices are "
-                  "what they were.",
-                  corners.size(), cavity.removed.size()),
+      fmt::format("With {} vertices there is another filling: {} tets instead of {}, with the same "
+                  "outer faces and vertices. The worst quality was {:.4f}. A tet that is bad still "
+                  "would be red.",
+                  corners.size(), cavity.created.size(), cavity.removed.size(), call.worst_before),
       {Focus::picture});
-  lesson.ask_for("tets made", "How many tets fill it now?");
+  lesson.ask(Ask::Kind::accepted, "Will the change stay?");
   lesson.say(call.events.end,
-             fmt::format("{} tets instead of {}, and the change stays: {}. The price is time: the "
-                         "search grows fast with the number of vertices, so it is for the worst "
-                         "tets, after everything else.",
-                         cavity.created.size(), cavity.removed.size(), qualities(call)),
+             fmt::format("The change stays: {}. The price is time: the search grows fast with the "
+                         "number of vertices, so it is for the worst tets, after everything else.",
+                         qualities(call)),
              {Focus::picture, Focus::tree});
 }
 

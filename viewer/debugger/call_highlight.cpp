@@ -91,7 +91,7 @@ Highlight highlight_caller(const TetMesh& mesh, TetEdge edge, const glm::dvec3& 
 
 Highlight highlight_face(const TetMesh& mesh, const std::array<VertexHandle, 3>& face,
                          const glm::dvec3& origin) {
-  constexpr std::uint8_t kClear = 70;
+  constexpr std::uint8_t kClear = 165;  // over red, it is its own colour still
   Highlight highlight;
   std::array<glm::dvec3, 3> c;
   for (unsigned i = 0; i < 3; ++i) {

@@ -57,7 +57,10 @@ void fit_text(const Pseudocode& code, bool is_whole) {
     const bool is_broken = std::any_of(lines.begin(), lines.end(),
                                        [](const CodeLine& line) { return line.rows() > 1; });
     if (is_unbroken && is_broken) return false;
-    const float around = (kTitle + lines_below(true)) * ImGui::GetTextLineHeightWithSpacing();
+    const std::string title = in_lines(std::string(code.title), room.x);
+    const auto breaks = static_cast<float>(std::count(title.begin(), title.end(), '\n'));
+    const float around =
+        (kTitle + breaks + lines_below(true)) * ImGui::GetTextLineHeightWithSpacing();
     return !has_height || height_of(lines) + around <= room.y;
   };
   for (float share = 1; share > kLeastUnbroken; share -= kStep) {
@@ -78,7 +81,11 @@ void show_code(const Pseudocode& code, unsigned line, bool is_new, bool is_whole
                3 * ImGui::GetFontSize());
   std::vector<CodeLine> lines = wrap_code(code, avail.x);
   if (height_of(lines) > room) lines = wrap_code(code, avail.x - ImGui::GetStyle().ScrollbarSize);
-  ImGui::BeginChild("##lines", {0, std::min(height_of(lines), room)});
+  const bool is_higher = height_of(lines) > room;
+  // Rounding adds up: what fits is not to be scrolled.
+  const float height_of_all = height_of(lines) + static_cast<float>(lines.size());
+  ImGui::BeginChild("##lines", {0, std::min(height_of_all, room)}, false,
+                    is_higher ? 0 : ImGuiWindowFlags_NoScrollbar);
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {ImGui::GetStyle().ItemSpacing.x, kGap});
   ImDrawList* list = ImGui::GetWindowDrawList();
   for (unsigned i = 1; i <= lines.size(); ++i) {
@@ -95,7 +102,7 @@ void show_code(const Pseudocode& code, unsigned line, bool is_new, bool is_whole
     ImGui::BeginGroup();
     show_code_line(shown);
     ImGui::EndGroup();
-    if (i == line && is_new) ImGui::SetScrollHereY(0.5F);
+    if (i == line && is_new && is_higher) ImGui::SetScrollHereY(0.5F);
   }
   ImGui::PopStyleVar();
   ImGui::EndChild();

@@ -72,8 +72,11 @@ void draw_row(Session& session, const CallRow& row) {
   ImGui::SetCursorPosX(ImGui::GetCursorPosX() + step * static_cast<float>(row.indent));
   if (row.has_children) {
     if (ImGui::SmallButton(row.is_open ? "-" : "+")) debugger.fold(row.call);
-    ImGui::SameLine(0, 0.3F * ImGui::GetFontSize());
+  } else if (row.indent > 0) {  // calls of one level stand below each other
+    const float sign = ImGui::CalcTextSize("+").x + 2 * ImGui::GetStyle().FramePadding.x;
+    ImGui::Dummy({sign, ImGui::GetTextLineHeight()});
   }
+  if (row.has_children || row.indent > 0) ImGui::SameLine(0, 0.3F * ImGui::GetFontSize());
   show_mark_here(debugger, call);
   ImGui::SameLine(0, 0.2F * ImGui::GetFontSize());
   const std::string name =

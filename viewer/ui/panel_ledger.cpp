@@ -146,7 +146,7 @@ void show_nearness(const LedgerRow& all) {
       grouped(all.nearness.back()), kNothingCompared));
 }
 
-constexpr const char* kLacking = "quality lacking";
+constexpr const char* kLacking = "lacking";
 
 /// In a narrow column: a number, or a word that explain_lacking() explains.
 std::string lacking_text(const Call& call) {
@@ -159,14 +159,12 @@ void explain_lacking(const TraceFile& file, const std::vector<std::uint32_t>& fo
   if (found.empty()) return;
   const Call& first = file.calls()[found.front()];
   const Call& last = file.calls()[found.back()];
-  std::string text;
+  std::string text = "lacking: in the quality of the worst tet";
   if (lacking_text(first) == "others") {
-    text = "others: the worst tet was good enough, others were not";
+    text += "; others: it was good enough, others were not";
   }
-  if (lacking_text(last) == "-") {
-    text += fmt::format("{}-: {}", text.empty() ? "" : "; ", kNothingCompared);
-  }
-  if (!text.empty()) wrapped_text(text);
+  if (lacking_text(last) == "-") text += fmt::format("; -: {}", kNothingCompared);
+  wrapped_text(text);
 }
 
 void show_found_row(Session& session, std::uint32_t number) {
