@@ -40,6 +40,10 @@ inline double triangle_area(const std::array<Point, 3>& p) {
   return (p[1] - p[0]).cross(p[2] - p[0]).norm() / 2;
 }
 
+inline double mean_edge(const std::array<Point, 3>& p) {
+  return ((p[1] - p[0]).norm() + (p[2] - p[1]).norm() + (p[0] - p[2]).norm()) / 3;
+}
+
 using Box = Eigen::AlignedBox<double, 3>;
 Box box_of(const std::array<Point, 3>& points);
 /// With all that lies within its tolerance.

@@ -14,11 +14,6 @@ namespace tetmend {
 
 namespace {
 
-double mean_edge(const Element& element) {
-  const auto& p = element.points;
-  return ((p[1] - p[0]).norm() + (p[2] - p[1]).norm() + (p[0] - p[2]).norm()) / 3;
-}
-
 /// The shortest way from triangle a to triangle b, of those that end in a corner of one or lead
 /// between two sides: of disjoint triangles one of these is the shortest.
 Point shortest_way(const Element& a, const Element& b) {
@@ -119,8 +114,9 @@ void Reference::add_faces(std::span<const Point> points, const SurfaceFeatures& 
     Element element;
     element.points = {points[v[0].index()], points[v[1].index()], points[v[2].index()]};
     element.sheet = face.patch;
-    const double asked =
-        options.length > 0 ? options.length : std::min(options.share * mean_edge(element), most);
+    const double asked = options.length > 0
+                             ? options.length
+                             : std::min(options.share * mean_edge(element.points), most);
     // Cuts round; and what is compared with the tolerance is rounded.
     element.tolerance = std::max(0.0, asked * (1 - 1e-9) - flatness / 10);
     element.normal = normal_of(element.points, 3, 0);

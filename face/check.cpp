@@ -218,10 +218,8 @@ std::map<Label, double> volumes_allowed(const std::vector<Wall>& walls, const Sc
   for (const Wall& wall : walls) {
     std::array<Point, 3> p;
     for (std::size_t k = 0; k < 3; ++k) p[k] = scale.to_work(point_of(wall.corners[k]));
-    const double mean_edge =
-        ((p[1] - p[0]).norm() + (p[2] - p[1]).norm() + (p[0] - p[2]).norm()) / 3;
     const double away =
-        options.length > 0 ? scale.to_work(options.length) : options.share * mean_edge;
+        options.length > 0 ? scale.to_work(options.length) : options.share * mean_edge(p);
     allowed[wall.labels[0]] += kBends * away * triangle_area(p);
     if (wall.labels[1] != wall.labels[0])
       allowed[wall.labels[1]] += kBends * away * triangle_area(p);

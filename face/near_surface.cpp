@@ -82,11 +82,9 @@ void set_tolerances(std::vector<Element>& elements, const EnvelopeOptions& optio
   double most = flat;
   for (Element& element : elements) {
     if (element.corners != 3) continue;
-    const auto& p = element.points;
-    const double mean_edge =
-        ((p[1] - p[0]).norm() + (p[2] - p[1]).norm() + (p[0] - p[2]).norm()) / 3;
-    const double tolerance =
-        options.length > 0 ? options.length : std::min(options.share * mean_edge, most_share);
+    const double tolerance = options.length > 0
+                                 ? options.length
+                                 : std::min(options.share * mean_edge(element.points), most_share);
     // Cuts and files round.
     constexpr double kRounding = 1e-9;
     element.tolerance = tolerance * (1 + kRounding) + 4 * flat;

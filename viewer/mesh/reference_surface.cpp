@@ -20,10 +20,6 @@ namespace {
 
 constexpr unsigned kSide = 4;  // samples along a side of a triangle, less one
 
-double mean_edge(const std::array<Point, 3>& p) {
-  return ((p[1] - p[0]).norm() + (p[2] - p[1]).norm() + (p[0] - p[2]).norm()) / 3;
-}
-
 void take_larger(Departure& most, const Departure& other) {
   most.distance = std::max(most.distance, other.distance);
   most.share = std::max(most.share, other.share);
