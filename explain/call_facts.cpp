@@ -180,8 +180,13 @@ std::string short_name(std::string_view operator_name) {
     std::replace(name.begin(), name.end(), '_', '-');
     return name + " flip";
   }
-  std::replace(name.begin(), name.end(), '_', ' ');
-  return name;
+  return spaced(name);
+}
+
+std::string spaced(std::string_view name) {
+  std::string text(name);
+  std::replace(text.begin(), text.end(), '_', ' ');
+  return text;
 }
 
 std::string short_name(const TraceFile& file, const Call& call) {

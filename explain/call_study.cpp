@@ -34,8 +34,9 @@ class Excursion {
 
 /// Where the call and those in it edit, and what it does itself.
 struct Edits {
-  std::vector<std::uint64_t> all;  // positions after them, undoes included
-  std::vector<std::uint64_t> own;  // without undoes
+  std::vector<std::uint64_t> all;      // positions after them, undoes included
+  std::vector<std::uint64_t> own;      // without undoes
+  std::optional<std::uint64_t> found;  // after the call itself told of a candidate, the first time
   bool last_is_undo = false;
 };
 
@@ -48,6 +49,9 @@ Edits edits_of(const TraceFile& file, const Call& call) {
     const TraceEvent& event = cursor.next();
     if (event.kind == EventKind::attempt_begins) ++depth;
     if (event.kind == EventKind::attempt_ends) --depth;
+    if (event.kind == EventKind::candidate_found && depth == 1 && !edits.found) {
+      edits.found = cursor.position();
+    }
     if (!changes_mesh(event.kind)) continue;
     edits.all.push_back(cursor.position());
     edits.last_is_undo = event.kind == EventKind::undo;
@@ -81,7 +85,7 @@ class Study {
     take_before(edits);
     if (!edits.all.empty()) take_after(edits);
     if (!edits.own.empty()) {
-      find_covering(edits.own.front());
+      find_covering(edits);
     } else if (study_.picture && !sandwich_a_.is_valid()) {
       follow_steps(edits.all);
     }
@@ -172,14 +176,17 @@ class Study {
   }
 
   /// What the first edit of the call makes of the polygon.
-  void find_covering(std::uint64_t position) {
+  void find_covering(const Edits& edits) {
     if (!study_.picture) return;
+    const std::uint64_t position = edits.own.front();
     replay_.seek(position);
     const Cavity cavity = replay_.cavity();
     if (cavity.created.empty() || !cavity.vertices.empty()) return;
     if (sandwich_a_.is_valid()) grow_sandwich(cavity);
     study_.covering = covering_at(*study_.picture);
-    if (study_.covering) study_.first_edit = position;
+    if (!study_.covering) return;
+    study_.first_edit = position;
+    if (edits.found && *edits.found < position) study_.found = edits.found;
   }
 
   /// What the edit that the replay has just made makes of a polygon, as far as that can be drawn.
@@ -334,6 +341,9 @@ std::string caption_of(const CallStudy& study, const PolygonView& view) {
                       view.covering->core.size(), shell.floor, view.covering->worst);
       return is_later ? text + "; " + as_before(old) : text;
     }
+    case PolygonStage::found:
+      return fmt::format("found: degree {} -> {}, worst {:.4f} -> {:.4f}", shell.ring.size(),
+                         view.covering->core.size(), shell.floor, view.covering->worst);
     case PolygonStage::best_triangulation:
       return fmt::format("best complete triangulation: worst {:.4f}, old {:.4f}", shell.full.worst,
                          shell.floor);
@@ -387,6 +397,9 @@ PolygonView polygon_at(const CallStudy& study, std::uint64_t position, bool refu
     if (later->covering) view.covering = &*later->covering;
   } else if (study.covering && position >= study.first_edit) {
     view.stage = PolygonStage::made;
+    view.covering = &*study.covering;
+  } else if (study.found && position >= *study.found) {
+    view.stage = PolygonStage::found;
     view.covering = &*study.covering;
   }
   const bool is_best = refused && view.stage == PolygonStage::before && has_full;

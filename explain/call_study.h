@@ -28,8 +28,9 @@ Quality worst_of(const std::vector<LocalTet>& tets);
 
 /// What the drawing of a polygon shows.
 enum class PolygonStage {
-  before,              ///< the old tets, and the chords that the search may use
-  made,                ///< the covering that the call made or tried
+  before,  ///< the old tets, and the chords that the search may use
+  found,   ///< the covering that the search has found, not made yet: dashed, with the chords
+  made,    ///< the covering that the call made or tried
   best_triangulation,  ///< after a refusal without a candidate: dashed, with the chords
   earlier,             ///< the old tets, though the shell is gone or cannot be drawn
   now                  ///< the shell as steps of the call have left it, with its chords
@@ -56,6 +57,8 @@ struct CallStudy {
   /// recursion that of its shell transformation, if nothing was changed before.
   std::optional<FlatCovering> covering;
   std::uint64_t first_edit = 0;
+  /// Right after the call told that its search had found `covering`, if it did.
+  std::optional<std::uint64_t> found;
   /// Right after something in the call changed the shell, and `covering` does not show that.
   std::uint64_t outdated = std::numeric_limits<std::uint64_t>::max();
   /// What is there from then on, one after another; the first is of `outdated`.
@@ -70,7 +73,7 @@ CallStudy study_call(const TraceFile& file, Replay& replay, std::uint32_t call);
 struct PolygonView {
   PolygonStage stage = PolygonStage::before;
   const ShellPicture* shell = nullptr;
-  const FlatCovering* covering = nullptr;  ///< that was made or tried; only of `made`
+  const FlatCovering* covering = nullptr;  ///< of `found` and `made`
   std::string caption;
   std::optional<TableCell> cell = {};  ///< of the tables, that was filled last
 };

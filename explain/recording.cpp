@@ -437,8 +437,8 @@ class Recording {
   Json ring_at(const Call& call, const CallStudy& study) {
     Json ring = Json::object();
     Json stages = Json::array();
-    constexpr std::array<std::string_view, 5> kStages = {"before", "made", "full", "earlier",
-                                                         "now"};
+    constexpr std::array<std::string_view, 6> kStages = {"before", "found",   "made",
+                                                         "full",   "earlier", "now"};
     const auto add = [&](std::uint64_t from, bool refused) {
       const PolygonView view = polygon_at(study, from, refused);
       const auto stage = static_cast<std::size_t>(view.stage);
@@ -447,6 +447,7 @@ class Recording {
       stages.push_back(std::move(row));
     };
     add(call.events.begin + 1, false);
+    if (study.found) add(*study.found, false);
     if (study.covering) add(study.first_edit, false);
     for (const LaterShell& later : study.later) {
       if (later.from < call.events.end) add(later.from, false);

@@ -291,7 +291,8 @@ void Document::mark_call() {
   const PolygonView polygon = debugger_->polygon();
   mark(highlight_cell(*study, polygon, ball_.centre), kCellColour, "pocket of the cell");
   if (polygon.covering == nullptr) return;
-  const char* tense = study->undone ? "tried" : "made";
+  const bool is_found = polygon.stage == PolygonStage::found;
+  const char* tense = is_found ? "found" : study->undone ? "tried" : "made";
   mark(highlight_covering(*study, polygon, ball_.centre), kChordColour,
        fmt::format("triangles of the pockets, {}", tense));
   if (!polygon.covering->core.empty()) {

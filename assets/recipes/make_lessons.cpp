@@ -463,8 +463,7 @@ const std::array<Refusal, 7> kRefusals = {{
 /// An operator at the beginning of a sentence.
 std::string prose_name(const std::string& operator_name) {
   if (operator_name.starts_with("flip_")) return "A " + explain::short_name(operator_name);
-  std::string name = operator_name;
-  std::replace(name.begin(), name.end(), '_', ' ');
+  std::string name = explain::spaced(operator_name);
   name[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(name[0])));
   return name;
 }

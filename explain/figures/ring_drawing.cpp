@@ -352,6 +352,10 @@ LinkedDrawing draw_polygon(const PolygonView& view, const RingLook& look) {
   const ShellPicture& shell = *view.shell;
   PolygonDrawer drawer(shell, look);
   switch (view.stage) {
+    case PolygonStage::found:
+      drawer.chords();
+      drawer.covering(*view.covering, true);
+      break;
     case PolygonStage::made:
       drawer.covering(*view.covering, false);
       break;

@@ -18,12 +18,6 @@ std::string numbers_of(const Call& call) {
   return text;
 }
 
-std::string spaced(std::string_view name) {
-  std::string text(name);
-  std::replace(text.begin(), text.end(), '_', ' ');
-  return text;
-}
-
 bool fitted_row(const std::string& text, bool is_selected, ImGuiSelectableFlags flags) {
   constexpr float kSmallest = 0.8F;
   const ImVec2 at = ImGui::GetCursorScreenPos();
@@ -60,6 +54,14 @@ float* spare_of_column() {
 }
 
 }  // namespace
+
+void tooltip_below(const std::string& text) {
+  if (!ImGui::IsItemHovered()) return;
+  const ImGuiStyle& style = ImGui::GetStyle();
+  ImGui::SetNextWindowPos({ImGui::GetMousePos().x + ImGui::GetFontSize(),
+                           ImGui::GetItemRectMax().y + style.ItemSpacing.y});
+  ImGui::SetTooltip("%s", text.c_str());
+}
 
 float spare_room() {
   return *spare_of_column();

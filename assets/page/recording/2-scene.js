@@ -61,12 +61,13 @@ function ringLines(call, position, line) {
   const {name, shell} = stageOfRing(call, position);
   const m = shell.ring.length;
   shell.ring.forEach((vertex, i) => line(vertex, shell.ring[(i + 1) % m], "skirt", 2.5));
-  if (name !== "made") return;
+  if (name !== "made" && name !== "found") return;
+  const isPlanned = name === "found";
   for (const [i, k, j] of shell.covering.triangles) {
-    for (const [from, to] of [[i, k], [k, j], [j, i]]) line(shell.ring[from], shell.ring[to], "chord", 3);
+    for (const [from, to] of [[i, k], [k, j], [j, i]]) line(shell.ring[from], shell.ring[to], "chord", 3, isPlanned);
   }
   if (shell.covering.triangles.length > 0) {
-    for (const [from, to] of shell.covering.core) line(shell.ring[from], shell.ring[to], "core", 5);
+    for (const [from, to] of shell.covering.core) line(shell.ring[from], shell.ring[to], "core", 5, isPlanned);
   }
 }
 
@@ -114,10 +115,9 @@ function makeScene(step, cell, when, apart, showAround) {
     if (cell && call.shell) markCell(scene, call.shell, cell, places);
     const edgeIsThere = full.some((tet) => [a, b].every((v) => tets[tet].corners.some((corner) => points[corner].vertex === v)));
     if (call.target.length === 2 || call.shell) line(a, b, "edge", 4.5, !edgeIsThere);
-    if (call.target.length > 2 && !call.shell) {
-      call.target.forEach((v, i) => call.target.slice(i + 1).forEach((w) => line(v, w, "edge", 3.5)));
-    }
-    call.target.forEach((vertex) => named.set(vertex, {text: `${vertex}`, end: true}));
+    if (!call.shell) markTarget(call.target, line);
+    const isVertex = call.target.length === 1;
+    call.target.forEach((vertex) => named.set(vertex, {text: isVertex ? `${vertex} = v` : `${vertex}`, end: call.target.length < 3}));
     if (call.shell) {
       named.set(a, {text: `${a} = a`, end: true});
       named.set(b, {text: `${b} = b`, end: true});
@@ -128,9 +128,8 @@ function makeScene(step, cell, when, apart, showAround) {
   const visited = tetVisited(step);
   if (visited) scene.visited = full.find((tet) => tets[tet].corners.every((corner) => visited.includes(points[corner].vertex))) ?? null;
   if (scene.visited !== null) {
-    // Yellow on a light ground is seen by its dark rim, which no other line has.
-    for (const [kind, width] of [["wire", 6.5], ["visited", 3.5]]) visited.forEach((v, i) => visited.slice(i + 1).forEach((w) => line(v, w, kind, width)));
-    visited.forEach((vertex) => named.set(vertex, {text: `${vertex}`, end: true}));
+    outlineTet(visited, "visited", line);
+    visited.forEach((vertex) => named.set(vertex, {text: `${vertex}`}));
   }
   const nameAll = full.length <= 60 ? [...full, ...scene.shellOfCaller] : scene.shellOfCaller;
   for (const tet of nameAll) {
@@ -143,6 +142,18 @@ function makeScene(step, cell, when, apart, showAround) {
     if (places.has(vertex)) scene.names.push({...name, vertex, place: places.get(vertex)});
   }
   return scene;
+}
+
+/** Yellow on a light ground is seen by its dark rim, which no other line has. */
+function outlineTet(corners, kind, line) {
+  for (const [shade, width] of [["wire", 6.5], [kind, 3.5]]) corners.forEach((v, i) => corners.slice(i + 1).forEach((w) => line(v, w, shade, width)));
+}
+
+/** A vertex, face or tet that a call is for, as windows have it; an edge comes with its shell. */
+function markTarget(target, line) {
+  if (target.length === 1) line(target[0], target[0], "vertex", 12);
+  if (target.length === 3) target.forEach((v, i) => line(v, target[(i + 1) % 3], "target", 4));
+  if (target.length === 4) outlineTet(target, "tet", line);
 }
 
 /** The shell of the caller as a ghost, and the face f of it that the call is to remove. */

@@ -16,10 +16,13 @@ out vec4 shade; out float along; flat out float dashes;
 void main() {
   vec4 p = matrix * vec4(from, 1); vec4 q = matrix * vec4(to, 1);
   vec2 direction = (q.xy / q.w - p.xy / p.w) * size;
+  bool isDot = length(direction) < 0.5;
+  if (isDot) direction = vec2(1, 0);
   float pixels = max(length(direction), 0.001);
   vec2 across = vec2(-direction.y, direction.x) / pixels;
   vec4 at = mix(p, q, corner.x);
   at.xy += across * corner.y * look.x / size * at.w;
+  if (isDot) at.xy += direction * (2.0 * corner.x - 1.0) * look.x / size * at.w;
   at.z -= 0.0005 * at.w;
   gl_Position = at;
   shade = colour; along = corner.x * pixels / 2.0; dashes = look.y;
@@ -160,9 +163,26 @@ function within(place, half, size) {
   return place < -far || place > size + far ? null : Math.min(Math.max(place, half), size - half);
 }
 
+/** Names that would hide what they name stand around it, each in the direction of its vertex. */
+function setAround(names, em) {
+  if (names.length < 3) return false;
+  const ends = [0, 1].map((axis) => [Math.min(...names.map(({from}) => from[axis])), Math.max(...names.map(({from}) => from[axis]))]);
+  const covered = names.reduce((sum, {half}) => sum + 4 * half[0] * half[1], 0);
+  const shape = ends.map(([low, high]) => high - low);
+  if (covered < 0.5 * shape[0] * shape[1]) return false;
+  const middle = ends.map(([low, high]) => (low + high) / 2);
+  for (const name of names) {
+    const way = [0, 1].map((axis) => (name.from[axis] - middle[axis]) / Math.max(shape[axis], 1));
+    const length = Math.hypot(...way);
+    name.at = [0, 1].map((axis) => middle[axis] + (length > 0 ? way[axis] / length : axis) * (0.7 * shape[axis] + name.half[axis] + 1.2 * em));
+  }
+  return true;
+}
+
 /** Where names stand, in letters of `em` pixels: at their vertices, or moved away from each other at the end of a line. Corners of the
     ring are p_i, too, unless that leaves no room for another name. */
 function placeNames(scene, camera, size, em) {
+  let isAround = false;
   const place = (hasCorners) => {
     const names = scene.names.map((name) => {
       const corner = hasCorners ? name.corner : undefined;
@@ -173,7 +193,9 @@ function placeNames(scene, camera, size, em) {
       const at = [within(x, half[0], size.width), within(y, half[1], size.height)];
       return {...name, corner, depth, half, at, from: [x, y], hidden: at.includes(null)};
     });
-    spread(names.filter((name) => !name.hidden && !name.quiet), size);
+    const loud = names.filter((name) => !name.hidden && !name.quiet);
+    isAround = setAround(loud, em);
+    spread(loud, size);
     return names;
   };
   const count = (names) => names.filter((name) => name.hidden).length;
@@ -181,7 +203,7 @@ function placeNames(scene, camera, size, em) {
   const isFar = (name) => !name.hidden && Math.hypot(name.at[0] - name.from[0], name.at[1] - name.from[1]) > farthest;
   const plain = place(false);
   const full = place(true);
-  const names = count(full) > count(plain) || full.some(isFar) ? plain : full;
+  const names = count(full) > count(plain) || (!isAround && full.some(isFar)) ? plain : full;
   hideCovered(names);
   for (const name of names) name.isLed = !name.hidden && !name.quiet && [0, 1].some((axis) => Math.abs(name.at[axis] - name.from[axis]) > name.half[axis]);
   return names;

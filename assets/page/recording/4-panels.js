@@ -57,7 +57,7 @@ class RingDrawing {
   }
 
   label([x, y], text, strong, kind = "number") {
-    this.labels.push(svgElement("text", {x, y, "text-anchor": "middle", "dominant-baseline": "central", "font-size": strong ? 1.25 * this.text : kind === "number" ? Math.min(this.text, 0.098) : this.text,
+    this.labels.push(svgElement("text", {x, y, "text-anchor": "middle", "dominant-baseline": "central", "font-size": strong ? 1.25 * this.text : kind === "number" ? Math.min(this.text, this.shell.ring.length > 6 ? 0.098 : 0.11) : this.text,
       "font-weight": strong ? 700 : 600, fill: inCss(colourOf("ink")), stroke: inCss(colourOf("card")), "stroke-width": 0.022, "paint-order": "stroke", "data-kind": kind}, text));
   }
 
@@ -65,7 +65,7 @@ class RingDrawing {
   corner([x, y], vertex, i) {
     this.label([x, y - 0.5 * this.text], `${vertex}`, true, "corner");
     this.label([x, y + 0.65 * this.text], "", false, "place");
-    this.labels.at(-1).append(svgElement("tspan", {"font-style": "italic"}, "p"), svgElement("tspan", {"font-size": "75%", dy: "0.25em"}, `${i + 1}`));
+    this.labels.at(-1).append(svgElement("tspan", {"font-style": "italic"}, "p"), svgElement("tspan", {"font-size": "90%", dy: "0.2em"}, `${i + 1}`));
   }
 
   outline() {
@@ -132,6 +132,9 @@ function showRing(call, position, cell) {
   drawing.outline();
   if (name === "made") {
     drawing.covering(shell.covering, false);
+  } else if (name === "found") {
+    drawing.chords();
+    drawing.covering(shell.covering, true);
   } else if (name === "full") {
     drawing.chords();
     drawing.covering(shell.full, true);
@@ -333,19 +336,22 @@ function showTold(step, enter) {
   byId("reason").textContent = call && isDone(call, step.position) ? call.reason ?? "" : "";
 }
 
-const LEGEND = [["visited", "tet t that the pass turns to", 3.5, ""], ["edge", "edge ab, or the target", 4.5, ""], ["skirt", "ring", 2.5, ""], ["chord", "chord of the new covering", 3, ""], ["core", "side of the core", 5, ""],
+const LEGEND = [["visited", "tet t that the pass turns to", 3.5, ""], ["tet", "tet of the call", 3.5, ""], ["vertex", "vertex v of the call", 9, ""], ["target", "face of the call", 4, ""],
+  ["edge", "edge ab", 4.5, ""], ["skirt", "skirt polygon", 2.5, ""], ["chord", "chord of the new covering", 3, ""], ["core", "side of the core", 5, ""],
   ["ancestor", "edges that the callers remove", 4, "5 4"], ["cell", "the cell of the tables", 4, ""], ["ghost", "tets around", 1.2, ""]];
 
-// Short: for the stage of a lesson, below the ring. The rest is seen in the picture alone, and for windows that leave out its legend.
-const RING_LEGEND = [["skirt", "ring", 2.5, ""], ["chord", "chord", 3, ""], ["core", "side of the core", 5, ""], ["cell", "cell of the tables", 4, ""]];
-const PICTURE_LEGEND = [["face", "face f to remove", 9, ""], ["ancestor", "edges of callers", 4, "5 4"]];
+// Short: for the stage of a lesson, below the ring.
+const RING_LEGEND = [["skirt", "skirt polygon", 2.5, ""], ["chord", "chord", 3, ""], ["core", "side of the core", 5, ""], ["cell", "cell of the tables", 4, ""]];
+// What a small window has room for in the legend of the picture: no ring shows it.
+const PICTURE_ALONE = ["visited", "tet", "vertex", "target", "ancestor", "face"];
 
 function legendLine([kind, text, width, dashes]) {
   const svg = svgElement("svg", {viewBox: "0 0 22 9", "aria-hidden": "true"});
-  if (kind === "visited") svg.append(svgElement("line", {x1: 0, y1: 4.5, x2: 22, y2: 4.5, stroke: inCss(colourOf("wire")), "stroke-width": 2 * width}));
+  if (kind === "visited" || kind === "tet") svg.append(svgElement("line", {x1: 0, y1: 4.5, x2: 22, y2: 4.5, stroke: inCss(colourOf("wire")), "stroke-width": 2 * width}));
   if (kind === "face") for (let x = -6; x < 22; x += 4) svg.append(svgElement("line", {x1: x, y1: 9, x2: x + 8, y2: 0, stroke: inCss(colourOf(kind)), "stroke-width": 1.4}));
-  svg.append(svgElement(kind === "face" ? "g" : "line", {x1: 1, y1: 4.5, x2: 21, y2: 4.5, stroke: inCss(colourOf(kind)), "stroke-width": width, "stroke-dasharray": dashes}));
-  return make("li", {"data-kind": kind}, svg, text);
+  const [x1, x2] = kind === "vertex" ? [11, 11.01] : [1, 21];
+  svg.append(svgElement(kind === "face" ? "g" : "line", {x1, y1: 4.5, x2, y2: 4.5, "stroke-linecap": kind === "vertex" ? "round" : "butt", stroke: inCss(colourOf(kind)), "stroke-width": width, "stroke-dasharray": dashes}));
+  return make("li", {"data-kind": kind, class: PICTURE_ALONE.includes(kind) ? "of-picture" : ""}, svg, text);
 }
 
 function showLegend(scene, ringKinds) {
@@ -359,7 +365,5 @@ function showLegend(scene, ringKinds) {
   if (scene.kinds.has("face")) items.push(legendLine(["face", `face f to remove, ${scene.faceToRemove.join(" ")}`, 0, ""]));
   if (scene.faces.length > 0) items.push(make("li", {}, swatch([BAD]), "bad tet, q < 1"), make("li", {}, swatch(EMBER.slice(3)), "quality q, from 1, which just meets the goal, to 2"));
   byId("legend").replaceChildren(...items);
-  const ofPicture = PICTURE_LEGEND.filter(([kind]) => scene.kinds.has(kind)).map(legendLine);
-  for (const item of ofPicture) item.className = "of-picture";
-  byId("ring-legend").replaceChildren(...RING_LEGEND.filter(([kind]) => ringKinds.has(kind)).map(legendLine), ...ofPicture);
+  byId("ring-legend").replaceChildren(...RING_LEGEND.filter(([kind]) => ringKinds.has(kind)).map(legendLine));
 }

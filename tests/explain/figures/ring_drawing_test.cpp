@@ -83,7 +83,14 @@ TEST_CASE("the polygon has the old tets before the edit and the new covering aft
       return polygon_at(study, position, false).stage;
     };
     CHECK(stage_at(study.first_edit) == PolygonStage::made);
-    CHECK(stage_at(study.first_edit - 1) == PolygonStage::before);
+    REQUIRE(study.found);
+    CHECK(kind_of_event(file, *study.found - 1) == EventKind::candidate_found);
+    CHECK(stage_at(*study.found - 1) == PolygonStage::before);
+    CHECK(stage_at(study.first_edit - 1) == PolygonStage::found);
+    const LinkedDrawing planned = drawn(study, *study.found, false);
+    CHECK(dashed(planned) >= 3 * made.triangles.size());  // and the chords
+    CHECK(dashed(after) == 0);
+    for (const auto& t : made.triangles) CHECK(has_number(planned, t.quality));
     CHECK(kind_of_event(file, study.first_edit - 1) == EventKind::replace_cavity);
     for (const auto& t : made.triangles) CHECK(has_number(after, t.quality));
     for (const auto& side : made.core) CHECK(has_number(after, side.quality));
