@@ -628,6 +628,7 @@ void Document::pick(double x, double y) {
   const auto& hit = is_through ? bad : front;
   select(hit ? refine(mesh_, *hit, pick_kind, view.camera, canvas) : Selection());
   if (is_through) picked_through_ = {at, view.camera};
+  tells_pick = hit.has_value();
 }
 
 const Histogram& Document::histogram() {

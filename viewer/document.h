@@ -94,6 +94,7 @@ class Document {
   FileQuestion question = FileQuestion::none;
   bool offer_choices = false;  ///< a menu of what can be done with the selection
   bool ask_place = false;      ///< the user wants to say where to go
+  bool tells_pick = false;     ///< something was picked, and its panel is to say what
   bool quit = false;
   std::optional<WaitingCommand> waiting;  ///< for the user to save, or to let go
   std::vector<std::string> recent;        ///< files that were opened, the last first

@@ -163,8 +163,10 @@ class OverlayDrawer {
     if (scene.colour == kDistance) return distance_bar();
     const ColourMap& map = find_colour_map(scene.map);
     const Column column = colour_column([&](double t) { return map.at(t); });
-    words({column.left + column.wide, column.upper - 14 * scale_}, scene.colour, Anchor::end);
-    numbers(column, find_tet_value(scene.colour).range);
+    const TetValue& value = find_tet_value(scene.colour);
+    words_on_ground({right_ - kMargin / 2 * scale_, column.upper - 14 * scale_}, value.title(),
+                    Anchor::end);
+    numbers(column, value.range);
   }
 
   /// At the lower left.
@@ -531,7 +533,7 @@ class OverlayDrawer {
       const double y =
           column.upper + column.height * (range.high - value) / (range.high - range.low);
       drawing_.line({x, y}, {x + 4 * out, y}, Pen{ink_, scale_});
-      words({x + 8 * out, y}, figure::tick_text(value), side);
+      words_on_ground({x + 8 * out, y}, figure::tick_text(value), side);
     }
   }
 
@@ -549,8 +551,9 @@ class OverlayDrawer {
     numbers(column, document_.distance_range());
     if (reference->allowance().length > 0) {
       numbers(column, {0, 1}, Anchor::end);
-      words({column.left - 8 * scale_, column.upper + column.height + 0.8 * kLine * scale_},
-            "of the tolerance", Anchor::end);
+      words_on_ground(
+          {column.left - 8 * scale_, column.upper + column.height + 0.8 * kLine * scale_},
+          "of the tolerance", Anchor::end);
     }
     double y = column.upper + column.height + 1.8 * kLine * scale_;
     for (std::string& line : departure_in_words(document_)) {
@@ -581,8 +584,8 @@ class OverlayDrawer {
       swatch(left, y, region_colour(labels[i]), fmt::format("region {}", labels[i]));
     }
     if (labels.size() > shown) {
-      words({left + 22 * scale_, y}, fmt::format("and {} more", labels.size() - shown),
-            Anchor::start);
+      words_on_ground({left + 22 * scale_, y}, fmt::format("and {} more", labels.size() - shown),
+                      Anchor::start);
       y += kLine * scale_;
     }
     if (document_.view.scene.bad) swatch(left, y, kBadColour, "bad");

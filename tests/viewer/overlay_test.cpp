@@ -51,9 +51,40 @@ TEST_CASE("a colour bar has the name of the measure, and numbers at their places
                    [](const auto& shape) { return std::holds_alternative<figure::Area>(shape); });
   REQUIRE(first != drawing.shapes.end());
   CHECK(std::get<figure::Area>(*first).fill == map.at(1 - 0.5 / 128));
+  s.run("colour", {"min_angle"});
+  CHECK(has(words_of(draw_overlay(s.document, {})), "min angle, degrees"));
   s.run("colour", {"region"});
   CHECK(has(words_of(draw_overlay(s.document, {})),
             fmt::format("region {}", s.document.regions().front())));
+}
+
+TEST_CASE("all words of a colour bar stand on a ground where the mesh can be behind them") {
+  TestSession s(test::kuhn_cube(2, 0, 1));
+  s.run("colour", {"quality"});
+  s.run("colour_bar");
+  const auto on_nothing = [&] {
+    const figure::Drawing drawing = draw_overlay(s.document, {});
+    std::size_t count = 0;
+    for (const figure::Shape& shape : drawing.shapes) {
+      const auto* text = std::get_if<figure::Text>(&shape);
+      if (text == nullptr) continue;
+      const auto holds = [&](const figure::Shape& other) {
+        const auto* area = std::get_if<figure::Area>(&other);
+        if (area == nullptr) return false;
+        const auto [low, high] = std::minmax_element(
+            area->corners.begin(), area->corners.end(),
+            [](const figure::Place& p, const figure::Place& q) { return p.x < q.x; });
+        const figure::Box box = box_of(*text);
+        return low->x <= box.left && high->x >= box.right;
+      };
+      if (std::none_of(drawing.shapes.begin(), drawing.shapes.end(), holds)) ++count;
+    }
+    return count;
+  };
+  s.document.view.background = Background::gradient;
+  CHECK(on_nothing() == 0);
+  s.document.view.background = Background::white;  // for papers
+  CHECK(on_nothing() > 0);
 }
 
 TEST_CASE("a scale bar is as long as it says") {

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "explain/call_facts.h"
 #include "kernel/error.h"
 
 namespace tetmend::viewer {
@@ -29,11 +30,16 @@ std::span<const TetValue> tet_values() {
     std::vector<TetValue> all = {
         {"quality", "relative to the goal: below 1 the tet is bad", nullptr, {0, 2}}};
     for (const QualityMeasure& m : quality_measures()) {
-      all.push_back({m.name, m.help, &m, {0, m.best}});
+      all.push_back({m.name, m.help, &m, {0, m.best}, m.name == "min_angle" ? "degrees" : ""});
     }
     return all;
   }();
   return kValues;
+}
+
+std::string TetValue::title() const {
+  const std::string text = explain::spaced(name);
+  return unit.empty() ? text : fmt::format("{}, {}", text, unit);
 }
 
 const TetValue& find_tet_value(std::string_view name) {

@@ -22,6 +22,10 @@ struct TetValue {
   /// That histograms and colours cover: 0 to the value of the regular tet; for the quality that the
   /// mesh stores, with the goal in the middle.
   Range range;
+  std::string_view unit = {};
+
+  /// For people: "min angle, degrees".
+  std::string title() const;
 };
 
 /// The quality by the standard of the mesh, which is the default; then all measures.

@@ -7,6 +7,7 @@
 #include <exception>
 #include <filesystem>
 #include <functional>
+#include <utility>
 
 #include <backends/imgui_impl_opengl3.h>
 #include <fmt/format.h>
@@ -166,7 +167,9 @@ void list_panels(Session& session, const std::function<bool(const Panel&)>& is_w
       ImGui::SetNextItemOpen(true, ImGuiCond_Once);
     }
     const bool comes_into_sight = is_news(panel, session.document.debugger());
-    if (comes_into_sight) ImGui::SetNextItemOpen(true);
+    const bool is_of_pick = panel.draw == &draw_selection_panel;
+    const bool is_told = is_of_pick && std::exchange(session.document.tells_pick, false);
+    if (comes_into_sight || is_told) ImGui::SetNextItemOpen(true);
     const ImVec2 corner = ImGui::GetCursorScreenPos();
     const bool is_open = ImGui::CollapsingHeader(heading_of(panel, session.document).c_str());
     ImGui::PopID();
@@ -242,7 +245,7 @@ Docked docked_in(const Layout& layout) {
   constexpr float kHigh = 44, kLow = 34;  // in lines of text
   if (!layout.is_one_column) return {0.42F, 0};
   const float lines = layout.right.height / ImGui::GetFontSize();
-  if (lines >= kHigh) return {0.3F, 4.5F};
+  if (lines >= kHigh) return {0.3F, 5.6F};
   if (lines >= kLow) return {0.25F, 4};
   return {0, 3.2F};
 }

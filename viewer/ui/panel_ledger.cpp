@@ -27,7 +27,7 @@ void count_cell(std::size_t count, const std::string& condition, std::string& ch
   ImGui::PushID(condition.c_str());
   if (ImGui::Selectable(text.c_str())) chosen = condition;
   ImGui::PopID();
-  if (ImGui::IsItemHovered()) ImGui::SetTooltip("lists: %s", condition.c_str());
+  tooltip_below("lists: " + condition);
 }
 
 void number_cell(const std::string& text) {
@@ -65,7 +65,7 @@ void show_endings(const LedgerRow& row, const LedgerRow* there, std::string& cho
     const std::string name(name_of(ending));
     ImGui::TextUnformatted(in_lines(name, ImGui::GetContentRegionAvail().x).c_str());
     ImGui::Unindent();
-    if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", kEndingWords[i].reason.data());
+    tooltip_below(std::string(kEndingWords[i].reason));
     count_cell(cell.calls,
                fmt::format("operator {} and ending {}", row.operator_name, word_of(ending)),
                chosen);
@@ -83,7 +83,7 @@ bool show_operator(const std::string& name) {
   const bool is_unfolded = ImGui::TreeNodeEx(name.c_str(), ImGuiTreeNodeFlags_NoTreePushOnOpen,
                                              "%s", in_lines(short_name(name), room).c_str());
   ImGui::PopStyleVar();
-  if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", name.c_str());
+  tooltip_below(name);
   return is_unfolded;
 }
 
@@ -182,9 +182,8 @@ void show_found_row(Session& session, std::uint32_t number) {
   }
   if (ImGui::IsItemHovered()) {
     session.document.hovering = session.document.pointed_call(number);
-    const std::string reason(debugger.file().reason(call));
-    ImGui::SetTooltip("%u %s %s: %s\n%s", number, name.c_str(), format_target(call).c_str(),
-                      call.verdict_in_words().c_str(), reason.c_str());
+    tooltip_below(fmt::format("{} {} {}: {}\n{}", number, name, format_target(call),
+                              call.verdict_in_words(), debugger.file().reason(call)));
   }
   ImGui::PopID();
   number_cell(lacking_text(call));

@@ -86,10 +86,16 @@ void draw_lesson_bar(Session& session) {
   ask_for_answer(session);
   const float right = ImGui::GetItemRectMax().x;
   const float middle = (ImGui::GetItemRectMin().y + ImGui::GetItemRectMax().y) / 2;
-  const std::string text = fmt::format("{}: {}", place_in(lesson, debugger), lesson.title);
-  draw_indexed(*ImGui::GetWindowDrawList(),
-               {right + ImGui::GetFontSize(), middle - ImGui::GetFontSize() / 2},
-               ImGui::GetColorU32(ImGuiCol_TextDisabled), text);
+  const float left = right + ImGui::GetFontSize();
+  const float room = ImGui::GetWindowPos().x + ImGui::GetContentRegionMax().x - left;
+  const auto fits = [&](const std::string& text) {
+    return ImGui::CalcTextSize(text.c_str()).x <= room;
+  };
+  const std::string place = place_in(lesson, debugger);
+  const std::string full = fmt::format("{}: {}", place, lesson.title);
+  if (!fits(place)) return;  // the title of the window has the lesson
+  draw_indexed(*ImGui::GetWindowDrawList(), {left, middle - ImGui::GetFontSize() / 2},
+               ImGui::GetColorU32(ImGuiCol_TextDisabled), fits(full) ? full : place);
 }
 
 void draw_lesson_panel(Session& session) {

@@ -67,7 +67,10 @@ TetMesh last_mesh(LiveRun& run) {
 
 /// With a prism below its first face of the bottom.
 MeshData with_prism(MeshData mesh) {
-  OtherElements prism{.vtk_type = 13, .vertex_count = 6, .vertices = {}, .labels = {7}};
+  OtherElements prism;
+  prism.vtk_type = 13;
+  prism.vertex_count = 6;
+  prism.labels = {7};
   for (const MeshData::Tet& tet : mesh.tets) {
     std::vector<std::uint32_t> face;
     std::copy_if(tet.vertices.begin(), tet.vertices.end(), std::back_inserter(face),

@@ -67,7 +67,9 @@ TEST_CASE("a bad tet behind the surface is picked through it, and then what is i
     CHECK(mesh.quality(bad) < kBadThreshold);
     if (front == bad) continue;
     ++seen;
+    s.document.tells_pick = false;
     CHECK(pick(*at) == viewer::Selection(bad));
+    CHECK(s.document.tells_pick);
     CHECK(pick(*at) == viewer::Selection(front));
     CHECK(pick(*at) == viewer::Selection(bad));
     s.document.view.camera.orbit(10, 0);
