@@ -10,6 +10,7 @@
 #include <array>
 #include <memory>
 #include <optional>
+#include <set>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -26,9 +27,12 @@
 #include "apps/mesh_formats.h"
 #include "apps/progress_line.h"
 #include "apps/standard_streams.h"
+#include "face/mesh_access.h"
 #include "face/portrait.h"
 #include "face/recorded.h"
 #include "kernel/formats/standard_stream.h"
+#include "kernel/grouped.h"
+#include "kernel/printable.h"
 #include "kernel/stopwatch.h"
 #include "pieces/bytes.h"
 #include "pieces/improve.h"
@@ -226,6 +230,15 @@ cannot stand there.
 
 )";
 
+/// "2, by the array 'part'"
+std::string regions_in_words(const MeshData& data) {
+  std::set<Label> labels;
+  for (const MeshData::Tet& tet : data.tets) labels.insert(tet.label);
+  const std::string count = grouped(labels.size());
+  if (data.label_array.empty()) return count;
+  return fmt::format("{}, by the array '{}'", count, printable(data.label_array));
+}
+
 /// The run with a schedule that tries nothing: all that is looked at before the first attempt, and
 /// nothing written.
 int run_dry(const ImproveOptions& options, const Invocation& invocation) {
@@ -236,6 +249,7 @@ int run_dry(const ImproveOptions& options, const Invocation& invocation) {
   ImproveReport report{.arguments = invocation.arguments, .options = options};
   Mesh mesh = load_for(options.input, would_be(options), options.run.threads, options.carry,
                        report.file_notes);
+  report.regions = regions_in_words(MeshAccess::data(mesh));
   Options nothing = options.run;
   nothing.script = "-- nothing is tried";
   nothing.set.clear();

@@ -435,6 +435,7 @@ std::string format_prospect(const ImproveReport& report) {
        fmt::format("{} to {} degrees; goal: {:g} to {:g}", decimal(found.theta_min, 4),
                    decimal(found.theta_max, 4), result.goal.min_angle, result.goal.max_angle));
   line("inverted, flat tets", grouped(result.not_positive_before));
+  line("regions", report.regions);
   const bool moves = !run.surface.empty() && run.surface != "fixed";
   line("surface", fmt::format("{} triangles, {}", grouped(found.boundary_triangles),
                               moves ? "which may move: " + run.surface : "which stay bit for bit"));

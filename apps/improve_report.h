@@ -19,6 +19,7 @@ struct ImproveReport {
   std::vector<std::string> arguments;
   const ImproveOptions& options;
   std::vector<std::string> file_notes = {};  ///< what of the input is not in the output
+  std::string regions = {};                  ///< of a dry run: how many, and what tells them apart
   Result result = {};
   face::Portrait portrait = {};                  ///< drawn if a report was asked for
   double reading = 0;                            ///< seconds

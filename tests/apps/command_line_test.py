@@ -136,9 +136,13 @@ class CommandLine(unittest.TestCase):
         tets = json.loads(self.run_program("quality", TWO, "--json").stdout)["tets"]
         self.assertIn(f"{tets:,}", done.stdout)
         self.assertIn("tets protected", done.stdout)
+        self.assertRegex(done.stdout, r"(?m)^regions +2$")
         self.assertIn("nothing is written", done.stdout)
         self.assertEqual(self.run_program("improve", TWO, "--dry-run", "--protect", "label:1").stdout, done.stdout)
         self.assertEqual(self.run_program("improve", TWO).returncode, 2)
+        self.run_program("convert", TWO, "two.vtu", "-q")
+        self.assertRegex(self.run_program("improve", "two.vtu", "--dry-run").stdout, r"(?m)^regions +2, by the array '[^']+'$")
+        (self.folder / "two.vtu").unlink()
         own = self.folder / "own.mesh"
         own.write_bytes(Path(TWO).read_bytes())
         for words in (["-o", ""], ["-o", "", "--memory", "1G"], ["--dry-run=false"]):
