@@ -28,9 +28,9 @@ Quality worst_of(const std::vector<LocalTet>& tets);
 
 /// What the drawing of a polygon shows.
 enum class PolygonStage {
-  before,  ///< the old tets, and the chords that the search may use
-  found,   ///< the covering that the search has found, not made yet: dashed, with the chords
-  made,    ///< the covering that the call made or tried
+  before,              ///< the old tets, and the chords that the search may use
+  found,               ///< the covering that the search has found, not made yet: dashed
+  made,                ///< the covering that the call made or tried
   best_triangulation,  ///< after a refusal without a candidate: dashed, with the chords
   earlier,             ///< the old tets, though the shell is gone or cannot be drawn
   now                  ///< the shell as steps of the call have left it, with its chords

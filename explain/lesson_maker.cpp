@@ -75,7 +75,9 @@ class LessonProposal {
     }
     const std::string ring_text =
         "The ring around its edge: each triangle of a covering makes two tets.";
-    ask(ring_text, {ring}, {Ask::Kind::chord, "Pick a chord of the covering that it finds."});
+    if (study_call(file_, replay_, number_).covering) {  // else no chord of its ring is better
+      ask(ring_text, {ring}, {Ask::Kind::chord, "Pick a chord of the covering that it finds."});
+    }
     ask(ring_text, {ring},
         {Ask::Kind::number, "How many triangulations has the ring?", "triangulations"});
     ask("Its first change puts new tets in the place of old ones.", {picture},

@@ -54,7 +54,7 @@ inline constexpr Colour kSelectionColour{255, 196, 0, 255};
 inline constexpr Colour kSupportingEdgeColour{214, 30, 150, 255};
 inline constexpr Colour kSkirtColour{20, 120, 220, 255};
 inline constexpr Colour kSupportingFaceColour{214, 30, 150, 90};
-inline constexpr Colour kLinkFaceColour{60, 150, 230, 60};
+inline constexpr Colour kLinkEdgeColour{96, 100, 108, 150};  ///< no colour that means more
 inline constexpr Colour kChordColour{0, 150, 136, 255};
 inline constexpr Colour kCoreColour{235, 168, 20, 255};
 inline constexpr Colour kCellColour{112, 48, 190, 255};  ///< of the tables of Algorithm 2

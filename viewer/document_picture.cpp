@@ -66,7 +66,8 @@ std::string state_of_tets(const Debugger& debugger) {
 }
 
 /// The colours of what is selected, as highlight() has it.
-std::vector<LegendEntry> legend_of(const TetMesh& mesh, const Selection& selection) {
+std::vector<LegendEntry> legend_of(const TetMesh& mesh, const Selection& selection,
+                                   bool is_target) {
   if (const auto* edge = std::get_if<TetEdge>(&selection)) {
     const auto ends = mesh.vertices(*edge);
     const auto from = std::min<std::uint32_t>(ends[0].index(), ends[1].index());
@@ -83,7 +84,9 @@ std::vector<LegendEntry> legend_of(const TetMesh& mesh, const Selection& selecti
     return {{kSupportingEdgeColour,
              fmt::format("face {} {} {}", c[0].index(), c[1].index(), c[2].index())}};
   }
-  if (std::holds_alternative<TetHandle>(selection)) return {{kSelectionColour, "selected tet"}};
+  if (std::holds_alternative<TetHandle>(selection)) {
+    return {{kSelectionColour, is_target ? "tet of the call" : "selected tet"}};
+  }
   return {};
 }
 
@@ -293,10 +296,13 @@ void Document::mark_call() {
   if (polygon.covering == nullptr) return;
   const bool is_found = polygon.stage == PolygonStage::found;
   const char* tense = is_found ? "found" : study->undone ? "tried" : "made";
-  mark(highlight_covering(*study, polygon, ball_.centre), kChordColour,
-       fmt::format("triangles of the pockets, {}", tense));
-  if (!polygon.covering->core.empty()) {
-    call_legend_.push_back({kCoreColour, "core: there the edge stays"});
+  const bool is_edge_made = polygon.covering->triangles.empty();
+  mark(highlight_covering(*study, polygon, ball_.centre),
+       is_edge_made ? kSkirtColour : kChordColour,
+       is_edge_made ? fmt::format("ring of the edge {}", tense)
+                    : fmt::format("chord of the covering, {}", tense));
+  if (!is_edge_made && !polygon.covering->core.empty()) {
+    call_legend_.push_back({kCoreColour, "side of the core: there the edge stays"});
   }
 }
 
@@ -314,7 +320,8 @@ void Document::mark_visit() {
   std::sort(near_.begin(), near_.end());
   near_.erase(std::unique(near_.begin(), near_.end()), near_.end());
   for (const VertexHandle v : tet) add_name(call_names_, v, {});
-  call_legend_.push_back({kSelectionColour, fmt::format("t of visit {}", *debugger_->visit())});
+  call_legend_.push_back({kSelectionColour, fmt::format("tet t that the pass turns to, visit {}",
+                                                        *debugger_->visit())});
 }
 
 /// A lesson speaks of vertices by their numbers also before it comes to a call.
@@ -397,7 +404,8 @@ const std::vector<LegendEntry>& Document::legend() {
     return std::any_of(legend_.begin(), legend_.end(),
                        [&](const LegendEntry& told) { return told.colour == entry.colour; });
   };
-  for (LegendEntry& entry : legend_of(mesh_, selection_)) {
+  for (LegendEntry& entry :
+       legend_of(mesh_, selection_, debugger_ != nullptr && selection_ == target_)) {
     if (!is_told(entry)) legend_.push_back(std::move(entry));  // t of a visit is selected, too
   }
   if (scene().bad_shown > 0) legend_.push_back({kBadColour, "bad tets"});

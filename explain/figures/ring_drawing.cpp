@@ -353,7 +353,6 @@ LinkedDrawing draw_polygon(const PolygonView& view, const RingLook& look) {
   PolygonDrawer drawer(shell, look);
   switch (view.stage) {
     case PolygonStage::found:
-      drawer.chords();
       drawer.covering(*view.covering, true);
       break;
     case PolygonStage::made:

@@ -342,7 +342,7 @@ class Pages(unittest.TestCase):
 
         if shell["chords"]:
             self.assertEqual(fact["chords"], [[f"{c['from']} - {c['to']}", told(c["on"]), told(c["back"])] for c in shell["chords"]], where)
-        if fact["caption"].startswith(("made", "tried")):
+        if fact["caption"].startswith(("found", "made", "tried")):
             covering = shell["covering"]
             core = covering["core"] if len(covering["core"]) >= 3 else []
             numbers = [f"{part['quality']:.3f}" for part in core + covering["triangles"]]

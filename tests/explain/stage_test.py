@@ -274,6 +274,7 @@ class Stage(unittest.TestCase):
             dashed = "return scene.lines.filter((line) => line.dashed && ['chord', 'core'].some((kind) => inCss(line.colour) === inCss(colourOf(kind)))).length"
             self.assertGreater(where.run(dashed), 4)
             self.assertTrue(where.run("return document.getElementById('caption').textContent").startswith("found: degree 6 -> 4, worst "))
+            self.assertTrue(where.run("return document.querySelector('[data-when=after]').disabled"), "it would answer the question")
             where.run("document.getElementById('lesson-next').click()")
             self.assertEqual(where.run(dashed), 0)
             self.assertTrue(where.run("return document.getElementById('caption').textContent").startswith("made: degree 6 -> 4, worst "))
@@ -456,13 +457,18 @@ class Stage(unittest.TestCase):
             try:
                 where.open(f"{PAGES[1].as_uri()}#lesson=4")
                 told = "return [...document.querySelectorAll('#' + arguments[0] + ' li')].filter((e) => e.getClientRects().length > 0).map((e) => e.dataset.kind)"
-                self.assertEqual(where.run(told, "ring-legend"), ["skirt", "chord", "core"], width)
-                where.run("goToLesson(5)")
-                self.assertEqual(where.run(told, "ring-legend"), ["skirt"], width)
-                picture = where.run(told, "legend")
-                self.assertLessEqual({"face", "ancestor"}, set(picture), width)
-                if width < 500:  # what the ring or the text tells has no room
-                    self.assertEqual(set(picture), {"face", "ancestor"})
+                lines = where.run(told, "ring-legend")
+                self.assertEqual([kind for kind in lines if kind not in ("edge", None)], ["skirt", "chord", "core"], width)
+                for step in (0, 1, 3, 4, 5):
+                    where.run("goToLesson(arguments[0])", step)
+                    drawn = where.run("return document.body.dataset.drawn")
+                    ring, picture = where.run(told, "ring-legend"), where.run(told, "legend")
+                    if "ring" in drawn:
+                        self.assertIn("skirt", ring, (width, step))
+                    if "picture" in drawn:
+                        self.assertLessEqual(set(where.run("return [...scene.kinds].filter((kind) => ['edge', 'face', 'ancestor', 'tet', 'vertex', 'visited'].includes(kind))")), set(picture), (width, step))
+                    if drawn:
+                        self.assertIn(None, ring + picture, f"the fills are told, too: {width}, {step}")
             finally:
                 where.close()
 

@@ -9,6 +9,7 @@
 #include "kernel/error.h"
 #include "schedule/lua_state.h"
 #include "schedule/script_value.h"
+#include "viewer/commands/menu.h"
 
 namespace tetmend::viewer {
 
@@ -56,12 +57,27 @@ ScriptValue to_value(const json& value) {
   return table;
 }
 
+/// A word without arguments takes none; one that switches takes true or false as well, and false then
+/// means: it is so already. @throws Error
+bool is_to_run(const Command& command, const Document& document, const json& arguments) {
+  const bool takes_some = !command.usage.ends_with("()");
+  if (takes_some || arguments.empty()) return true;
+  const auto state = is_on(command, document);
+  const bool is_switch = state && arguments.size() == 1 && arguments[0].is_boolean();
+  if (!is_switch) {
+    throw Error(
+        fmt::format("{}: it takes no argument{}", command.name, state ? ", or true or false" : ""));
+  }
+  return *state != arguments[0].get<bool>();
+}
+
 void run_command(const Command& command, Session& session, WordCall& call) {
   json arguments = json::array();
   for (int i = 1; i <= call.argument_count(); ++i)
     arguments.push_back(value_json(call.argument(i)));
   session.host.arrange(session.document);  // places below are those of the next picture
   session.document.keep_view();
+  if (!is_to_run(command, session.document, arguments)) return;
   const json result = command.run(session, arguments);
   if (session.document.quit) throw ScriptStop();
   call.give(to_value(result));

@@ -39,8 +39,9 @@ Highlight highlight_covering(const CallStudy& study, const PolygonView& polygon,
       line(t.corners[i], t.corners[(i + 1) % 3], kChordColour, 3);
     }
   }
+  const bool is_edge_made = polygon.covering->triangles.empty();  // in the place of faces
   for (const FlatCovering::Side& side : polygon.covering->core) {
-    line(side.from, side.to, kCoreColour, 5);
+    line(side.from, side.to, is_edge_made ? kSkirtColour : kCoreColour, 5);
   }
   return highlight;
 }

@@ -17,7 +17,7 @@ using figure::kCellColour;
 using figure::kChordColour;
 using figure::kConstraintColour;
 using figure::kCoreColour;
-using figure::kLinkFaceColour;
+using figure::kLinkEdgeColour;
 using figure::kPointedColour;
 using figure::kSelectionColour;
 using figure::kSkirtColour;

@@ -148,8 +148,6 @@ class SelectionPainter {
   Highlight take() { return std::move(out_); }
 
  private:
-  static constexpr Colour kLinkEdgeColour{60, 150, 230, 150};
-
   const TetMesh& mesh_;
   glm::dvec3 origin_;
   Highlight out_;

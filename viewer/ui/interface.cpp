@@ -253,7 +253,11 @@ Docked docked_in(const Layout& layout) {
 /// In tabs, what has happened and the way on would be out of sight where the ring is seen.
 void dock_place(Session& session, Area& area, float event_lines) {
   if (begin_area("##event", dock(area, event_lines * ImGui::GetTextLineHeightWithSpacing()))) {
-    draw_last_event(session);
+    if (session.document.debugger()->lesson()) {
+      draw_lesson_step(session);
+    } else {
+      draw_last_event(session);
+    }
     draw_stack(session);
     ImGui::End();
   }

@@ -78,6 +78,11 @@ void draw_lesson_text(Session& session) {
   }
 }
 
+void draw_lesson_step(Session& session) {
+  draw_lesson_text(session);
+  ask_for_answer(session);
+}
+
 void draw_lesson_bar(Session& session) {
   Debugger& debugger = *session.document.debugger();
   const Lesson& lesson = *debugger.lesson();
@@ -106,8 +111,7 @@ void draw_lesson_panel(Session& session) {
   ImGui::SameLine();
   ImGui::AlignTextToFramePadding();
   ImGui::TextDisabled("%s", place_in(lesson, debugger).c_str());
-  draw_lesson_text(session);
-  ask_for_answer(session);
+  draw_lesson_step(session);
 }
 
 }  // namespace tetmend::viewer::ui

@@ -92,7 +92,7 @@ void draw_selection_panel(Session& session) {
   if (std::holds_alternative<TetEdge>(document.selection())) {
     legend("supporting edge", kSupportingEdgeColour);
     legend("skirt polygon", kSkirtColour);
-    legend("outlines of supporting faces and link faces", kLinkFaceColour);
+    legend("outlines of supporting faces and link faces", kLinkEdgeColour);
   }
   if (clicked) guarded(document, [&] { document.fly_to(*clicked); });
 }

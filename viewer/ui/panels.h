@@ -72,6 +72,8 @@ inline constexpr float kChordRows = 5.2F;  // with the head; more can be scrolle
 // Parts of these, for the layout for teaching.
 /// The text of the step at hand, or what happened last.
 void draw_lesson_text(Session& session);
+/// That and the line for an answer.
+void draw_lesson_step(Session& session);
 /// Buttons, and how far the lesson is.
 void draw_lesson_bar(Session& session);
 /// The calls as a breadcrumb, the innermost `most` of them, and what the innermost is to do.

@@ -49,6 +49,7 @@ function stackOf(step) {
 function isDone(call, position) { return position >= call.end; }
 function verdictOf(call, position) { return isDone(call, position) ? call.verdict : "under way"; }
 function outcomeOf(call, position) { return isDone(call, position) ? call.outcome : "unfinished"; }
+function hasBegun(call, position) { return position > call.begin; }
 
 /** The tets that are there, step by step. Going to a step costs the changes on the way. */
 const present = {

@@ -57,12 +57,13 @@ function shellOfCaller(call) {
 }
 
 /** Lines of the polygon of the call: the ring, and what the covering makes of it once it is there. */
-function ringLines(call, position, line) {
+function ringLines(call, position, line, kinds) {
   const {name, shell} = stageOfRing(call, position);
   const m = shell.ring.length;
   shell.ring.forEach((vertex, i) => line(vertex, shell.ring[(i + 1) % m], "skirt", 2.5));
   if (name !== "made" && name !== "found") return;
   const isPlanned = name === "found";
+  if (isPlanned) kinds.add("planned");
   for (const [i, k, j] of shell.covering.triangles) {
     for (const [from, to] of [[i, k], [k, j], [j, i]]) line(shell.ring[from], shell.ring[to], "chord", 3, isPlanned);
   }
@@ -109,13 +110,14 @@ function makeScene(step, cell, when, apart, showAround) {
   const named = new Map();
   if (call) {
     const [a, b] = call.shell ? [call.shell.a, call.shell.b] : call.target;
-    if (call.shell) ringLines(call, when === "before" ? call.begin : step.position, line);
+    if (call.shell) ringLines(call, when === "before" ? call.begin : step.position, line, scene.kinds);
     if (when === "now") markCaller(scene, call, places);
     for (const [from, to] of ancestorsOf(step)) line(from, to, "ancestor", 4, true);
     if (cell && call.shell) markCell(scene, call.shell, cell, places);
     const edgeIsThere = full.some((tet) => [a, b].every((v) => tets[tet].corners.some((corner) => points[corner].vertex === v)));
     if (call.target.length === 2 || call.shell) line(a, b, "edge", 4.5, !edgeIsThere);
-    if (!call.shell) markTarget(call.target, line);
+    const isThere = full.some((tet) => call.target.every((v) => tets[tet].corners.some((corner) => points[corner].vertex === v)));
+    if (!call.shell) markTarget(call.target, line, !isThere);
     const isVertex = call.target.length === 1;
     call.target.forEach((vertex) => named.set(vertex, {text: isVertex ? `${vertex} = v` : `${vertex}`, end: call.target.length < 3}));
     if (call.shell) {
@@ -145,15 +147,15 @@ function makeScene(step, cell, when, apart, showAround) {
 }
 
 /** Yellow on a light ground is seen by its dark rim, which no other line has. */
-function outlineTet(corners, kind, line) {
-  for (const [shade, width] of [["wire", 6.5], [kind, 3.5]]) corners.forEach((v, i) => corners.slice(i + 1).forEach((w) => line(v, w, shade, width)));
+function outlineTet(corners, kind, line, isGone = false) {
+  for (const [shade, width] of [["wire", 6.5], [kind, 3.5]]) corners.forEach((v, i) => corners.slice(i + 1).forEach((w) => line(v, w, shade, width, isGone)));
 }
 
-/** A vertex, face or tet that a call is for, as windows have it; an edge comes with its shell. */
-function markTarget(target, line) {
+/** A vertex, face or tet that a call is for, as windows have it, dashed once it is gone; an edge comes with its shell. */
+function markTarget(target, line, isGone) {
   if (target.length === 1) line(target[0], target[0], "vertex", 12);
-  if (target.length === 3) target.forEach((v, i) => line(v, target[(i + 1) % 3], "target", 4));
-  if (target.length === 4) outlineTet(target, "tet", line);
+  if (target.length === 3) target.forEach((v, i) => line(v, target[(i + 1) % 3], "target", 4, isGone));
+  if (target.length === 4) outlineTet(target, "tet", line, isGone);
 }
 
 /** The shell of the caller as a ghost, and the face f of it that the call is to remove. */

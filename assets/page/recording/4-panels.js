@@ -9,9 +9,14 @@ const TEXT_OF_RING = 0.078;  // of its numbers, in halves of the drawing, where 
 let textOfRing = TEXT_OF_RING;
 
 /** Places of the ring in the unit circle, the first on top, counterclockwise; SVG has y downwards. Large numbers take room from it. */
-function ringPlace(shell, i, radius = 0.74 - 2 * Math.max(textOfRing - TEXT_OF_RING, 0)) {
+function ringPlace(shell, i, radius = 0.74 - 2 * Math.max(textOfRing - TEXT_OF_RING, 0) - Math.max(widthOfCorner(shell) - 0.25, 0)) {
   const angle = 2 * Math.PI * i / shell.ring.length;
   return [-radius * Math.sin(angle), -radius * Math.cos(angle)];
+}
+
+/** Of the longest number at a corner. */
+function widthOfCorner(shell) {
+  return 0.65 * 1.25 * textOfRing * Math.max(...shell.ring.map((vertex) => `${vertex}`.length));
 }
 
 /** What the ring of a call shows at a position of the trace, and of which shell. */
@@ -28,8 +33,9 @@ function chooseTextOfRing(svg, shell) {
   const m = shell.ring.length;
   if (m > 10) return 0.058;
   const readable = 11.5;  // pixels
+  const largest = m > 7 ? 0.09 : 0.135;
   const half = Math.min(svg.clientWidth, svg.clientHeight) / 2;
-  return half > 0 ? Math.min(Math.max(TEXT_OF_RING, readable / half), m > 7 ? 0.09 : 0.125) : TEXT_OF_RING;
+  return half > 0 ? Math.min(Math.max(TEXT_OF_RING, readable / half), largest) : TEXT_OF_RING;
 }
 
 class RingDrawing {
@@ -57,14 +63,16 @@ class RingDrawing {
   }
 
   label([x, y], text, strong, kind = "number") {
-    this.labels.push(svgElement("text", {x, y, "text-anchor": "middle", "dominant-baseline": "central", "font-size": strong ? 1.25 * this.text : kind === "number" ? Math.min(this.text, this.shell.ring.length > 6 ? 0.098 : 0.11) : this.text,
+    this.labels.push(svgElement("text", {x, y, "text-anchor": "middle", "dominant-baseline": "central", "font-size": strong ? 1.25 * this.text : kind === "number" ? Math.min(this.text, this.shell.ring.length > 6 ? 0.098 : this.shell.ring.length > 5 ? 0.107 : 0.12) : this.text,
       "font-weight": strong ? 700 : 600, fill: inCss(colourOf("ink")), stroke: inCss(colourOf("card")), "stroke-width": 0.022, "paint-order": "stroke", "data-kind": kind}, text));
   }
 
   /** The number of the vertex, and below it p_i as the paper has it. */
   corner([x, y], vertex, i) {
-    this.label([x, y - 0.5 * this.text], `${vertex}`, true, "corner");
-    this.label([x, y + 0.65 * this.text], "", false, "place");
+    const inside = 1 - 0.5 * widthOfCorner(this.shell);
+    const at = [Math.max(Math.min(x, inside), -inside), Math.max(Math.min(y, 1 - 1.45 * this.text), 1.25 * this.text - 1)];
+    this.label([at[0], at[1] - 0.5 * this.text], `${vertex}`, true, "corner");
+    this.label([at[0], at[1] + 0.65 * this.text], "", false, "place");
     this.labels.at(-1).append(svgElement("tspan", {"font-style": "italic"}, "p"), svgElement("tspan", {"font-size": "90%", dy: "0.2em"}, `${i + 1}`));
   }
 
@@ -133,7 +141,7 @@ function showRing(call, position, cell) {
   if (name === "made") {
     drawing.covering(shell.covering, false);
   } else if (name === "found") {
-    drawing.chords();
+    drawing.kinds.add("planned");
     drawing.covering(shell.covering, true);
   } else if (name === "full") {
     drawing.chords();
@@ -288,7 +296,9 @@ function rowsInSight(step) {
   const rows = rowsOfTree(step);
   const most = mostOnStage();
   if (!isOnStage() || rows.length <= most) return rows;
-  const here = Math.max(rows.findIndex(({call}) => call.number === step.call), 0);
+  // Outside of all calls, around the one that ended last.
+  const at = rows.findIndex(({call}) => call.number === step.call);
+  const here = Math.max(at >= 0 ? at : rows.findLastIndex(({call}) => isDone(call, step.position)), 0);
   const first = Math.min(Math.max(here - (most >> 1), 0), rows.length - most);
   return rows.slice(first, first + most);
 }
@@ -300,15 +310,15 @@ function showTree(step, enter, redraw) {
     const outcome = outcomeOf(call, step.position);
     const fold = hasCalls ? make("button", {type: "button", class: "fold", "aria-expanded": String(isOpen), "aria-label": `calls in call ${call.number}`,
       onclick: () => { folds.set(call.number, !isOpen); redraw(); }}, isOpen ? "\u25be" : "\u25b8") : make("span", {class: "fold", style: "display: inline-block; min-width: 1.5rem"});
-    const row = make("button", {type: "button", class: "row", title: `call ${call.number}, ${call.operator}${call.settings ? ` {${call.settings}}` : ""}: ${verdictOf(call, step.position)}`,
-      onclick: () => enter(call)}, markOf(outcome, true), `${call.level} ${call.name} ${call.target.join("-")}`);
+    const row = make("button", {type: "button", class: "row", title: `call ${call.number}, ${call.operator}${call.settings ? ` {${call.settings}}` : ""}: ${hasBegun(call, step.position) ? verdictOf(call, step.position) : "to come"}`,
+      onclick: () => enter(call)}, hasBegun(call, step.position) ? markOf(outcome, true) : make("span", {class: "mark"}), `${call.level} ${call.name} ${call.target.join("-")}`);
     const first = make("td", {}, fold, row);
     first.style.paddingLeft = `${0.8 * (call.depth - least)}rem`;
     return make("tr", {class: call.number === here ? "here" : "", "data-call": call.number, ...(call.number === here ? {"aria-current": "true"} : {})},
       first, ...[call.degrees, call.qualities].map((text) => make("td", {}, isDone(call, step.position) ? text : text.split(" -> ")[0])));
   });
   byId("tree").replaceChildren(make("thead", {}, make("tr", {}, make("th", {}, "level, operator, target"), make("th", {}, "degree"), make("th", {}, "worst q"))), make("tbody", {}, ...rows));
-  const seen = new Set(rowsInSight(step).map(({call}) => outcomeOf(call, step.position)));
+  const seen = new Set(rowsInSight(step).filter(({call}) => hasBegun(call, step.position)).map(({call}) => outcomeOf(call, step.position)));
   byId("marks").replaceChildren(...Object.keys(recording.outcomes).filter((outcome) => seen.has(outcome)).map((outcome) =>
     make("li", {}, markOf(outcome), nameOf(outcome))));
   const box = byId("tree-scroll");
@@ -337,13 +347,12 @@ function showTold(step, enter) {
 }
 
 const LEGEND = [["visited", "tet t that the pass turns to", 3.5, ""], ["tet", "tet of the call", 3.5, ""], ["vertex", "vertex v of the call", 9, ""], ["target", "face of the call", 4, ""],
-  ["edge", "edge ab", 4.5, ""], ["skirt", "skirt polygon", 2.5, ""], ["chord", "chord of the new covering", 3, ""], ["core", "side of the core", 5, ""],
-  ["ancestor", "edges that the callers remove", 4, "5 4"], ["cell", "the cell of the tables", 4, ""], ["ghost", "tets around", 1.2, ""]];
+  ["edge", "edge ab", 4.5, ""], ["skirt", "skirt polygon", 2.5, ""], ["chord", "chord of the covering", 3, ""], ["core", "side of the core", 5, ""],
+  ["planned", "found, not made yet", 3, "4 3"], ["ancestor", "edges that the callers remove", 4, "5 4"], ["cell", "the cell of the tables", 4, ""], ["ghost", "tets around", 1.2, ""]];
 
 // Short: for the stage of a lesson, below the ring.
-const RING_LEGEND = [["skirt", "skirt polygon", 2.5, ""], ["chord", "chord", 3, ""], ["core", "side of the core", 5, ""], ["cell", "cell of the tables", 4, ""]];
-// What a small window has room for in the legend of the picture: no ring shows it.
-const PICTURE_ALONE = ["visited", "tet", "vertex", "target", "ancestor", "face"];
+const RING_LEGEND = [["edge", "edge ab", 1.5, ""], ["skirt", "skirt polygon", 2.5, ""], ["chord", "chord", 3, ""], ["core", "side of the core", 5, ""], ["planned", "not made yet", 3, "4 3"], ["cell", "cell of the tables", 4, ""]];
+const LESS = ["ghost"];  // what a small window has no room for
 
 function legendLine([kind, text, width, dashes]) {
   const svg = svgElement("svg", {viewBox: "0 0 22 9", "aria-hidden": "true"});
@@ -351,19 +360,26 @@ function legendLine([kind, text, width, dashes]) {
   if (kind === "face") for (let x = -6; x < 22; x += 4) svg.append(svgElement("line", {x1: x, y1: 9, x2: x + 8, y2: 0, stroke: inCss(colourOf(kind)), "stroke-width": 1.4}));
   const [x1, x2] = kind === "vertex" ? [11, 11.01] : [1, 21];
   svg.append(svgElement(kind === "face" ? "g" : "line", {x1, y1: 4.5, x2, y2: 4.5, "stroke-linecap": kind === "vertex" ? "round" : "butt", stroke: inCss(colourOf(kind)), "stroke-width": width, "stroke-dasharray": dashes}));
-  return make("li", {"data-kind": kind, class: PICTURE_ALONE.includes(kind) ? "of-picture" : ""}, svg, text);
+  return make("li", {"data-kind": kind, class: LESS.includes(kind) ? "less" : ""}, svg, text);
+}
+
+function swatch(colours) {
+  const svg = svgElement("svg", {viewBox: "0 0 22 9", "aria-hidden": "true"});
+  colours.forEach((colour, n) => svg.append(svgElement("rect", {x: n * 22 / colours.length, y: 0, width: 22 / colours.length + 0.2, height: 9, fill: inCss(colour)})));
+  return svg;
+}
+
+/** What the colours of tets and of slices of the ring mean. */
+function fills() {
+  const wide = make("span", {class: "wide"}, ", from 1, which just meets the goal, to 2");
+  return [make("li", {class: "fill"}, swatch([BAD]), "bad tet, q < 1"), make("li", {class: "fill"}, swatch(EMBER.slice(3)), make("span", {}, "quality q", wide))];
 }
 
 function showLegend(scene, ringKinds) {
   const items = LEGEND.filter(([kind]) => scene.kinds.has(kind)).map(legendLine);
-  const swatch = (colours) => {
-    const svg = svgElement("svg", {viewBox: "0 0 22 9", "aria-hidden": "true"});
-    colours.forEach((colour, n) => svg.append(svgElement("rect", {x: n * 22 / colours.length, y: 0, width: 22 / colours.length + 0.2, height: 9, fill: inCss(colour)})));
-    return svg;
-  };
-  if (scene.kinds.has("caller")) items.push(make("li", {}, swatch([colourOf("caller")]), `shell of the caller, ${scene.caller.join(" ")}`));
+  if (scene.kinds.has("caller")) items.push(make("li", {class: "less"}, swatch([colourOf("caller")]), `shell of the caller, ${scene.caller.join(" ")}`));
   if (scene.kinds.has("face")) items.push(legendLine(["face", `face f to remove, ${scene.faceToRemove.join(" ")}`, 0, ""]));
-  if (scene.faces.length > 0) items.push(make("li", {}, swatch([BAD]), "bad tet, q < 1"), make("li", {}, swatch(EMBER.slice(3)), "quality q, from 1, which just meets the goal, to 2"));
+  if (scene.faces.length > 0) items.push(...fills());
   byId("legend").replaceChildren(...items);
-  byId("ring-legend").replaceChildren(...RING_LEGEND.filter(([kind]) => ringKinds.has(kind)).map(legendLine));
+  byId("ring-legend").replaceChildren(...RING_LEGEND.filter(([kind]) => ringKinds.has(kind)).map(legendLine), ...(ringKinds.size > 0 ? fills() : []));
 }

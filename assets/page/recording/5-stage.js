@@ -48,6 +48,7 @@ function chooseFocus(n) {
   for (const [name, selector] of Object.entries(PANELS)) document.querySelector(selector).classList.toggle("focused", focus.includes(name));
   const inOrder = Object.keys(PANELS).filter((name) => focus.includes(name));
   document.body.dataset.panels = inOrder.length;
+  document.body.dataset.drawn = DRAWN.filter((name) => focus.includes(name)).join(" ");
   const rows = inOrder.map((name) => (DRAWN.includes(name) ? "minmax(var(--least), 1fr)" : "auto"));
   const {style} = document.querySelector("main");
   style.setProperty("--rows", rows.join(" "));
@@ -86,16 +87,16 @@ function fitStage() {
     document.body.style.setProperty("--finger", finger);
     const all = finger === "24px" ? [...more, ...sizes] : sizes.slice(0, 6);
     const readable = all.filter((size) => size > 0.69);  // nine pixels on a phone
-    const rooms = [["max(10rem, 26vh)", "no"], ["8rem", "no"], ["8rem", "yes"]];
+    const rooms = [["max(10rem, 28vh)", "no"], ["max(10rem, 26vh)", "no"], ["10rem", "no"], ["8rem", "no"], ["8rem", "yes"]];
     const fitIn = ([least, wrap], text) => {
       document.body.style.setProperty("--least", least);
       document.body.dataset.wrap = wrap;
       return fit("--fit", text, isCut);
     };
-    if (fitIn(rooms[0], readable)) return;
     const before = document.body.style.getPropertyValue("--text");
-    if (!isColumn && before > 0.88) {  // the text gives way first
-      if (fit("--text", [0.94, 0.88], () => !fitIn(rooms[0], readable))) return;
+    for (const room of rooms.slice(0, 3)) {  // the text gives way first, as long as it is easy to read
+      if (fitIn(room, readable)) return;
+      if (!isColumn && fit("--text", [0.94, 0.88, 0.82, 0.76].filter((size) => size < before), () => !fitIn(room, readable))) return;
       document.body.style.setProperty("--text", before);
     }
     if (rooms.some((room) => fitIn(room, all))) return;
@@ -155,7 +156,7 @@ function checkNumber(event) {
   const ask = questionAt(n);
   if (ask?.kind !== "number") return;
   const text = byId("number").value.trim().replace(",", ".");
-  if (text === "" || !Number.isFinite(Number(text))) return say("A number, please");
+  if (text === "" || !Number.isFinite(Number(text))) return say("A number, such as 5 or 0.25");
   giveAnswer(n, Math.abs(Number(text) - ask.answer) <= ask.within + 1e-9, text);
 }
 

@@ -155,7 +155,8 @@ function show(isSudden = false) {
   byId("along").disabled = axisOf(call) === null;
   const after = document.querySelector("[data-when=after]");
   after.textContent = call?.undone ? "Tried" : "After";
-  after.disabled = !call?.after?.length;
+  const isAsked = isOnStage() && questionAt(place.lesson) && !answers.has(place.lesson);  // it would be the answer
+  after.disabled = !call?.after?.length || Boolean(isAsked);
   document.querySelector("[data-when=before]").disabled = !call?.before?.length;
   const words = call ? `${call.name} ${call.place}: ${scene.shown} tets` : `${scene.shown} tets`;
   canvas.setAttribute("aria-label", words);

@@ -283,7 +283,7 @@ TEST_CASE("each colour of a visit and of a call at a vertex has one entry in the
   s.run("run_to", {"visit 1"});
   REQUIRE(std::holds_alternative<TetHandle>(s.document.selection()));
   CHECK(check_once({kSelectionColour}) == "tets beside it");
-  CHECK(s.document.legend().front().text == "t of visit 1");
+  CHECK(s.document.legend().front().text == "tet t that the pass turns to, visit 1");
   unsigned seen = 0;
   const auto calls = s.document.debugger()->file().calls();
   for (std::uint32_t k = 0; k < calls.size() && seen < 4; ++k) {

@@ -109,6 +109,31 @@ TEST_CASE("an edge that is picked shows its shell") {
   CHECK(outcome.status == 0);
 }
 
+TEST_CASE("words that switch take true or false, and no others take an argument in vain") {
+  const TempFolder folder;
+  write_mesh(folder / "shell.mesh", shell_mesh({.degree = 6}));
+  const auto with_mesh = [&](const std::string& words) {
+    return run_script(folder, "open(" + in_quotes(folder / "shell.mesh") + ") " + words);
+  };
+  const Outcome switched = with_mesh(R"lua(
+    colour_bar(true)
+    colour_bar(true)
+    expect(state().view.colour_bar, "on, and on it stays")
+    colour_bar(false)
+    expect(not state().view.colour_bar, "off")
+    colour_bar()
+    expect(state().view.colour_bar, "the other way round")
+  )lua");
+  CHECK(switched.err == "");
+  CHECK(switched.status == 0);
+  const Outcome wrong = with_mesh("colour_bar(1)");
+  CHECK(wrong.status == 1);
+  CHECK(wrong.err.find("colour_bar: it takes no argument, or true or false") != std::string::npos);
+  const Outcome vain = with_mesh("home(true)");
+  CHECK(vain.status == 1);
+  CHECK(vain.err.find("home: it takes no argument") != std::string::npos);
+}
+
 TEST_CASE("the start screen has no empty columns, in both themes") {
   const TempFolder folder;
   const Outcome outcome = run_script(folder, R"lua(
