@@ -436,18 +436,21 @@ void Improvement::put_back(Made made) {
 /// Some figure is worse than before: makes the run again, up to its best pass; if one is worse there,
 /// too, up to half as many, and so on: all that is at most two runs more. The same passes do the same, so
 /// no state needs to be kept in memory. Who stops that gets what it has reached, if no figure is worse
-/// there.
+/// there. A time limit holds once more, for all these runs together.
 void Improvement::go_back() {
   goes_back_ = true;
   const std::string reason = fmt::format("{}", fmt::join(face::worse_for_nothing(result_), "; "));
   const std::size_t all = result_.passes.size();
-  for (std::size_t passes = best_pass();; passes = is_stopped() ? 0 : passes / 2) {
+  const bool is_limited = options_.time_limit > 0;
+  const double end = result_.improving + options_.time_limit;
+  const auto is_over = [&] { return is_stopped() || (is_limited && result_.improving >= end); };
+  for (std::size_t passes = best_pass();; passes = is_over() ? 0 : passes / 2) {
     MeshData data = input_;
     scale_.to_file(data.points);
     result_.notes.resize(notes_before_);
     build_mesh(data);
     if (passes > 0) {
-      run_schedule(passes, 0);
+      run_schedule(passes, is_limited ? end - result_.improving : 0);
     } else {
       result_.passes.clear();
     }
@@ -456,7 +459,7 @@ void Improvement::go_back() {
     const std::size_t done = result_.passes.size();  // fewer where it was stopped on the way
     std::string text = fmt::format(
         "went back to the state after pass {} of {}: at the end there was {}", done, all, reason);
-    if (passes > 0 && is_stopped())
+    if (passes > 0 && is_over())
       text += fmt::format("; it was stopped on the way to pass {}", passes);
     note({text});
     goes_back_ = false;

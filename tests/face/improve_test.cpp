@@ -2,11 +2,13 @@
 // The one verb: what it gives, what it leaves as it was, how it ends.
 #include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <cmath>
 #include <random>
 #include <set>
 #include <stdexcept>
 #include <thread>
+#include <utility>
 
 #include <doctest/doctest.h>
 #include <fmt/format.h>
@@ -433,6 +435,36 @@ TEST_CASE("a run that ends with a worse figure goes back to the best of its pass
   CHECK(equal(none.second, improved("log('nothing')").second));
   CHECK(none.first.passes.empty());
   CHECK(went_back(none.first, "0 of 3"));
+}
+
+TEST_CASE("a time limit holds for the way back, too") {
+  MeshData data = kuhn_cube(4, 0.1, 1);
+  for (Point& p : data.points) p.z() *= 0.15;
+  Mesh mesh = MeshAccess::make(std::move(data));
+  const std::string spoil =
+      "local_reconnection{} smooth{} judge_by{measure = 'sine', price = 0} "
+      "for _ = 1, 3 do apply({'centroid_insertion', desperate = 2}, {on = 'all'}) end";
+  constexpr double kSeconds = 3;  // the first run takes far less
+  bool has_slept = false;
+  Stage stage = Stage::building;
+  int runs = 0;
+  const Result result = improve(
+      mesh, {.script = spoil,
+             .time_limit = kSeconds,
+             .layers = Layers::improve,
+             .progress = [&](const Progress& progress) {
+               if (progress.stage == Stage::improving && stage != Stage::improving) ++runs;
+               stage = progress.stage;
+               if (runs == 2 && progress.phase == "smooth" && !std::exchange(has_slept, true)) {
+                 std::this_thread::sleep_for(std::chrono::duration<double>(kSeconds));
+               }
+               return true;
+             }});
+  CHECK(runs == 2);
+  CHECK(std::any_of(result.notes.begin(), result.notes.end(), [](const std::string& note) {
+    return note.ends_with("; it was stopped on the way to pass 2");
+  }));
+  CHECK(result.worse().empty());
 }
 
 TEST_CASE(
