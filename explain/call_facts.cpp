@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "explain/slot_shell.h"
+#include "kernel/spaced.h"
 
 namespace tetmend::explain {
 
@@ -181,12 +182,6 @@ std::string short_name(std::string_view operator_name) {
     return name + " flip";
   }
   return spaced(name);
-}
-
-std::string spaced(std::string_view name) {
-  std::string text(name);
-  std::replace(text.begin(), text.end(), '_', ' ');
-  return text;
 }
 
 std::string short_name(const TraceFile& file, const Call& call) {

@@ -40,8 +40,6 @@ std::string format_target(const Call& call);
 /// Name of the operator, shortened for narrow columns: "recursion", "face removal".
 std::string short_name(const TraceFile& file, const Call& call);
 std::string short_name(std::string_view operator_name);
-/// "edge_removal" as "edge removal".
-std::string spaced(std::string_view name);
 
 /// The tets that a call works on, as headings say it: "Shell", "Ball", "Cavity", ... A literal.
 std::string_view neighbourhood_of(const Call& call);

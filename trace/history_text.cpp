@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "kernel/spaced.h"
 #include "trace/history.h"
 
 namespace tetmend {
@@ -63,9 +64,7 @@ class Teller {
   const Call& call(std::uint32_t number) const { return file_.calls()[number]; }
 
   std::string operator_of(std::uint32_t number) const {
-    std::string name(file_.name(call(number).operator_name));
-    std::replace(name.begin(), name.end(), '_', ' ');
-    return name;
+    return spaced(file_.name(call(number).operator_name));
   }
   std::string call_in_words(std::uint32_t number) const {
     const auto target = call(number).target();

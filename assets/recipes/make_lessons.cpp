@@ -25,6 +25,7 @@
 #include "kernel/formats/mesh_io.h"
 #include "kernel/formats/output_file.h"
 #include "kernel/shell.h"
+#include "kernel/spaced.h"
 #include "kernel/workspace.h"
 #include "ops/registry.h"
 #include "schedule/run.h"
@@ -463,7 +464,7 @@ const std::array<Refusal, 7> kRefusals = {{
 /// An operator at the beginning of a sentence.
 std::string prose_name(const std::string& operator_name) {
   if (operator_name.starts_with("flip_")) return "A " + explain::short_name(operator_name);
-  std::string name = explain::spaced(operator_name);
+  std::string name = spaced(operator_name);
   name[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(name[0])));
   return name;
 }

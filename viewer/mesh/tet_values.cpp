@@ -9,8 +9,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "explain/call_facts.h"
 #include "kernel/error.h"
+#include "kernel/spaced.h"
 
 namespace tetmend::viewer {
 
@@ -38,7 +38,7 @@ std::span<const TetValue> tet_values() {
 }
 
 std::string TetValue::title() const {
-  const std::string text = explain::spaced(name);
+  const std::string text = spaced(name);
   return unit.empty() ? text : fmt::format("{}, {}", text, unit);
 }
 

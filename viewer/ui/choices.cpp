@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
+#include "kernel/spaced.h"
 #include "viewer/ui/call_row.h"
 #include "viewer/ui/dialog_buttons.h"
 

@@ -8,6 +8,7 @@
 #include <imgui.h>
 
 #include "kernel/error.h"
+#include "kernel/spaced.h"
 #include "viewer/mesh/tet_values.h"
 #include "viewer/overlay.h"
 #include "viewer/ui/call_row.h"

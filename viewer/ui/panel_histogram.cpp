@@ -7,6 +7,7 @@
 
 #include "figure/drawing.h"
 #include "kernel/grouped.h"
+#include "kernel/spaced.h"
 #include "viewer/mesh/tet_values.h"
 #include "viewer/ui/call_row.h"
 #include "viewer/ui/drawing_canvas.h"

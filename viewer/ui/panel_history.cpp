@@ -7,6 +7,7 @@
 #include <imgui.h>
 #include <imgui_stdlib.h>
 
+#include "kernel/spaced.h"
 #include "viewer/ui/call_row.h"
 #include "viewer/ui/drawing_canvas.h"
 #include "viewer/ui/panels.h"

@@ -9,6 +9,7 @@
 
 #include "kernel/error.h"
 #include "kernel/grouped.h"
+#include "kernel/spaced.h"
 #include "viewer/live/operator_schedule.h"
 #include "viewer/ui/call_row.h"
 #include "viewer/ui/panels.h"

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
+#include "kernel/spaced.h"
 #include "viewer/ui/call_row.h"
 #include "viewer/ui/panels.h"
 #include "viewer/ui/parameter_field.h"

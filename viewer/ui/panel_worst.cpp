@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
+#include "kernel/spaced.h"
 #include "viewer/ui/call_row.h"
 #include "viewer/ui/panels.h"
 #include "viewer/ui/wrapped_text.h"

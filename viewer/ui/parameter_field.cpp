@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
+#include "kernel/spaced.h"
 #include "viewer/ui/call_row.h"
 
 namespace tetmend::viewer::ui {

@@ -9,6 +9,7 @@
 #include "explain/icicle.h"
 #include "explain/outcome_look.h"
 #include "kernel/grouped.h"
+#include "kernel/spaced.h"
 #include "viewer/ui/call_row.h"
 #include "viewer/ui/drawing_canvas.h"
 

@@ -215,7 +215,7 @@ TEST_CASE("before its first call a lesson has the numbers of its vertices in the
   CHECK(s.document.names().size() == s.document.mesh().vertex_count());
 }
 
-TEST_CASE("what a call makes is not shown before it has made it") {
+TEST_CASE("what a call makes is not shown before it has found it, and then as found") {
   const test::TracedBall trace;
   TraceSession s(trace.path());
   const auto has_chords = [&] {
@@ -231,10 +231,21 @@ TEST_CASE("what a call makes is not shown before it has made it") {
     const CallStudy study = *debugger.study();
     if (!study.covering || study.covering->triangles.empty()) continue;
     ++seen;
-    s.run("seek", {study.first_edit - 1});
+    const auto is_told = [&](std::string_view tense) {
+      const auto& legend = s.document.legend();
+      return std::any_of(legend.begin(), legend.end(), [&](const LegendEntry& entry) {
+        return entry.colour == kChordColour && entry.text.ends_with(tense);
+      });
+    };
+    REQUIRE(study.found);
+    s.run("seek", {*study.found - 1});
     CHECK_FALSE(has_chords());
+    s.run("seek", {study.first_edit - 1});
+    CHECK(has_chords());
+    CHECK(is_told("found"));
     s.run("seek", {study.first_edit});
     if (debugger.call() == k) CHECK(has_chords());
+    CHECK_FALSE(is_told("found"));
   }
   CHECK(seen == 5);
 }
